@@ -15,7 +15,7 @@ set(CPACK_COMPONENTS_ALL program)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tyglab)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
     "Take a simulated cloth in your hands, tune every constant of its model while
-it runs, and see what each of fifteen integrators makes of it: stability,
+it runs, and see what each method of integration makes of it: stability,
 accuracy, energy and cost. For courses in modelling and numerical methods,
 with labs, and with commands for simulations, pictures, experiments and
 benchmarks.")

@@ -9,6 +9,7 @@
 
 #include "app/base/files.h"
 #include "app/base/settings.h"
+#include "core/io/json_tree.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
@@ -178,8 +179,8 @@ PresetSource find_preset(const std::string& name_or_file, const std::vector<std:
   std::error_code error;
   const fs::path file(name_or_file);
   if (fs::exists(file, error)) return {file, file.stem().string()};
-  std::string problem =
-      "'" + name_or_file + "' is neither " + (commands.empty() ? "" : "a command, ") + "a shipped preset nor a file.";
+  std::string problem = "'" + excerpt(name_or_file, 300) + "' is neither " + (commands.empty() ? "" : "a command, ") +
+                        "a shipped preset nor a file.";
   std::vector<std::string_view> known(names.begin(), names.end());
   known.insert(known.end(), commands.begin(), commands.end());
   const auto near = nearest(name_or_file, known);

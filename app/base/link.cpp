@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/base/files.h"
+#include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 
@@ -14,14 +15,14 @@ namespace {
 
 constexpr auto default_preset = "hanging";
 
-/// A part of a link in a sentence, of which a link may have megabytes.
-std::string excerpt(std::string_view text, std::size_t most = 60) {
-  return "'" + in_one_line(std::string(text.substr(0, most))) + (text.size() > most ? "…" : "") + "'";
+/// A part of a link in a sentence.
+std::string cited(std::string_view text, std::size_t most = 60) {
+  return "'" + in_one_line(excerpt(text, most)) + "'";
 }
 
 [[noreturn]] void fail(std::string_view link, const std::string& why) {
-  throw PresetError("The link " + excerpt(link, 200) + " " + why +
-                    " Copy it again, whole; links look like #hanging&k_s=300.");
+  throw PresetError("The link " + cited(link, 200) + " " + why + " Copy it again, whole; links look like " +
+                    std::string(example_link) + ".");
 }
 
 /// Of a hexadecimal digit; below 0: it is none.
@@ -66,6 +67,27 @@ bool is_shipped_preset(const std::string& name) {
   return std::binary_search(names.begin(), names.end(), name);
 }
 
+/// "https" of an address that begins with https://, in lower case; empty if the text is no address.
+std::string scheme_of(std::string_view text) {
+  std::string scheme(text.substr(0, std::min(text.find("://"), text.size())));
+  const auto is_letter = [](unsigned char letter) { return std::isalpha(letter) != 0; };
+  if (scheme.size() == text.size() || !std::all_of(scheme.begin(), scheme.end(), is_letter)) return {};
+  for (char& letter : scheme) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+  return scheme;
+}
+
+/// Of an address that holds no experiment.
+[[noreturn]] void refuse_address(std::string_view address) {
+  std::string cure =
+      "Tyglab downloads nothing: download the file first, then open that file. A link to an experiment "
+      "has it after a #: https://…/" +
+      std::string(example_link) + ".";
+  if (scheme_of(address) == "file")
+    cure = "Open the file by its path: " +
+           cited(decoded(address.substr(std::min(address.find('/', 7), address.size())), address), 200) + ".";
+  throw PresetError("The address " + cited(address, 200) + " holds no experiment. " + cure);
+}
+
 /// The preset that an address names before its #, as in ?embed&preset=flag&panels=0; empty if it names none. Where no #
 /// follows (`alone`), nothing else may stand there that means an experiment.
 std::string framed_preset(std::string_view address, std::string_view link, bool alone) {
@@ -80,32 +102,28 @@ std::string framed_preset(std::string_view address, std::string_view link, bool 
       name = value;
     } else if (alone && key == "lab") {
       throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
-                        in_one_line(value) + ".");
+                        in_one_line(excerpt(value)) + ".");
     } else if (alone && key != "embed" && key != "panels") {
-      fail(link, "has no # before its constants, such as " + excerpt(part) + ".");
+      if (name.empty()) refuse_address(link);
+      fail(link, "has no # before its constants, such as " + cited(part) + ".");
     }
   }
-  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: " + excerpt(name) + ".");
+  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: " + cited(name) + ".");
   return name;
 }
 
 }  // namespace
 
 bool is_link(std::string_view text) {
-  const auto begins = [&](std::string_view scheme) {
-    return std::equal(scheme.begin(), scheme.end(), text.begin(), text.begin() + std::min(text.size(), scheme.size()),
-                      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-  };
-  return text.starts_with('#') || begins("http://") || begins("https://");
+  return text.starts_with('#') || !scheme_of(text).empty();
 }
 
 LinkedPreset read_link(std::string_view text) {
   const std::size_t hash = std::min(text.find('#'), text.size());
   const bool alone = hash == text.size();
   const std::string framed = hash > 0 ? framed_preset(text.substr(0, hash), text, alone) : std::string();
-  // The page's own address is that of its first experiment; what else it says was meant for another place.
-  if (alone && framed.empty() && text.find_first_of("&=%") != std::string_view::npos)
-    fail(text, "has no #, after which the experiment stands.");
+  const bool file = text.substr(0, std::min(text.find('?'), hash)).ends_with(".json");
+  if (file || (hash > 0 && framed.empty() && hash + 1 >= text.size())) refuse_address(text);
   LinkedPreset linked{framed.empty() ? default_preset : framed, {}};
   std::string_view rest = text.substr(std::min(hash + 1, text.size()));
   for (bool first = true; !rest.empty(); first = false) {
@@ -113,10 +131,10 @@ LinkedPreset read_link(std::string_view text) {
     const std::string part = decoded(rest.substr(0, end), text);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (first && part.find('=') == std::string::npos) {
-      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: " + excerpt(part) + ".");
+      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: " + cited(part) + ".");
       linked.name = part;
     } else if (part.find('=') == std::string::npos || part.starts_with('=')) {
-      fail(text, "has a part that is not KEY=VALUE: " + excerpt(part) + ".");
+      fail(text, "has a part that is not KEY=VALUE: " + cited(part) + ".");
     } else {
       linked.settings.push_back(part);
     }
@@ -128,13 +146,12 @@ Preset linked_preset(const LinkedPreset& link) {
   std::vector<Setting> settings;
   for (const std::string& text : link.settings) {
     Setting setting = parse_setting(text);
-    setting.typed = "The link's " + in_one_line(text);
+    setting.typed = "The link's " + in_one_line(excerpt(text, 200));
     settings.push_back(std::move(setting));
   }
   Preset preset = with_parsed_settings(read_preset(find_preset(link.name).file), settings);
   if (!preset.texture.empty() && !is_shipped_texture(preset.texture))
-    throw PresetError("The link's texture " + in_one_line(preset.texture) +
-                      " is not a shipped one; a link holds no image.");
+    throw PresetError("The link's texture " + cited(preset.texture) + " is not a shipped one; a link holds no image.");
   return preset;
 }
 

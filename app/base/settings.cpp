@@ -143,8 +143,8 @@ Settings settings_from(const JsonNode& root) {
     window.take("x", settings.x), window.take("y", settings.y);
     window.take("width", settings.width), window.take("height", settings.height);
     window.take("maximised", settings.maximised);
-    settings.width = std::clamp(settings.width, 480, 16384);
-    settings.height = std::clamp(settings.height, 320, 16384);
+    if (settings.width != 0) settings.width = std::clamp(settings.width, 480, 16384);
+    if (settings.height != 0) settings.height = std::clamp(settings.height, 320, 16384);
   });
   all.take("ui_scale", settings.ui_scale);
   settings.ui_scale = settings.ui_scale > 0 ? std::clamp(settings.ui_scale, 0.5, 3.0) : 1;

@@ -40,7 +40,7 @@ struct LastSession {
 };
 
 struct Settings {
-  int x = -1, y = -1, width = 1440, height = 860;  ///< of the window; x < 0: let the system choose
+  int x = -1, y = -1, width = 0, height = 0;  ///< of the window; x < 0, width 0: let the system choose
   bool maximised = false;
   double ui_scale = 1;
   std::string theme = "dark";  ///< a Look's name

@@ -17,17 +17,21 @@
 
 namespace tyglab {
 
+/// The example in messages and in help: a cloth that lasts.
+constexpr std::string_view example_link = "#hanging&k_s=100";
+
 /// Whether a word on the command line, or dropped on the window, is a link or an address rather than a name or a file.
 bool is_link(std::string_view text);
 
 /// What a link says.
 struct LinkedPreset {
   std::string name;                   ///< of a shipped preset
-  std::vector<std::string> settings;  ///< "k_s=300"
+  std::vector<std::string> settings;  ///< "k_s=100"
 };
 /// Reads a link, or an address with one in it. Its constants are those of the preset that it names; else of the one
-/// that the address names before the #, as in ?embed&preset=flag#k_s=300; else of the default preset. Throws
-/// PresetError: the link names no shipped preset, or something in it is no setting.
+/// that the address names before the #, as in ?embed&preset=flag#k_s=100; else of the default preset. Throws
+/// PresetError: the link names no shipped preset, something in it is no setting, or the address holds no experiment, as
+/// that of a file does.
 LinkedPreset read_link(std::string_view text);
 
 /// The preset itself. Throws PresetError: a setting is wrong.

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "app/base/files.h"
+#include "app/cli/stepping.h"
+#include "app/process/interrupt.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/image.h"
 #include "app/ui/kit/color_legend.h"
@@ -51,6 +53,8 @@ Image Film::with_legend() const {
 }
 
 std::filesystem::path Film::shoot(Simulation& simulation, const std::filesystem::path& file, Reach reach) {
+  std::optional<InterruptExit> at_once;
+  if (takes_long_to_show(simulation)) at_once.emplace();
   renderer_.lend_memory(simulation);
   renderer_.update(simulation, options_);
   if (colors_) {

@@ -60,6 +60,8 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
       } while (stepper.changed());
       costs.add_steps(simulation.steps() - before);
     }
+    if (stepper.interrupted() && takes_long_to_show(simulation))
+      end_interrupted("The last picture and the state were left out, since a cloth of this size takes long to show.");
     const FrameCosts::Timer draw(costs, Part::draw_cloth);
     const fs::path file = folder / frame_name(options.preset_label, k, pictures, "png");
     film.shoot(simulation, file);

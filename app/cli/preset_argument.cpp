@@ -87,7 +87,8 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   command
       .add_option("PRESET", preset,
                   "A shipped preset's name (`tyglab presets` lists them), a preset file, or a link that the page or\n"
-                  "`Copy link` made: 'https://…#hanging&k_s=300' or its end from # on")
+                  "`Copy link` made: 'https://…" +
+                      std::string(example_link) + "' or its end from # on")
       ->required(required)
       ->check(not_empty());
   command

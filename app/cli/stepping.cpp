@@ -8,6 +8,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/process/interrupt.h"
+#include "app/process/process.h"
 #include "core/integrators/scheme.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
@@ -58,6 +59,18 @@ std::int64_t FramePlan::step_of(std::int64_t frame) const {
 
 std::int64_t Timeline::step_at(double time) const {
   return step + std::llround((time - t) / dt);
+}
+
+bool takes_long_to_show(const Simulation& simulation) {
+  constexpr int most = 250'000;  // particles
+  return simulation.lattice().size() > most;
+}
+
+void end_interrupted(const std::string& left_out) {
+  std::cout.flush(), std::cerr.flush();
+  end_at_once(
+      "tyglab: Interrupted; what was written so far is complete, and no older file was replaced. " + left_out + "\n",
+      exit_interrupted);
 }
 
 Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt)

@@ -50,6 +50,13 @@ class FramePlan {
   std::int64_t count_;
 };
 
+/// Whether a picture of the cloth, or a file of its state, takes longer than half a second. After Ctrl-C these are left
+/// out, and Ctrl-C ends the program at once while they are made.
+bool takes_long_to_show(const Simulation& simulation);
+/// Ends an interrupted command whose cloth takes long: giving its memory back would take long too. `left_out`: a
+/// sentence.
+[[noreturn]] void end_interrupted(const std::string& left_out);
+
 class Stepper {
  public:
   /// `auto_dt`: halves dt where the energy ledger asks for it.

@@ -4,6 +4,10 @@
 
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
+#include <cstddef>
+
+#include "core/analysis/reference.h"
 #include "core/engines/engine.h"
 #include "core/model/preset.h"
 
@@ -33,5 +37,30 @@ class Interrupt {
  private:
   bool raised_ = false;
 };
+
+/// Lets the interpreter go on while `work(stop)` runs, and ends it by Ctrl-C.
+template <class Work>
+auto beside_python(const Work& work) {
+  Interrupt interrupt;
+  try {
+    const py::gil_scoped_release unlocked;
+    return work(interrupt.stop());
+  } catch (const Stopped&) {
+  }
+  interrupt.raise();
+  throw py::value_error("the study was stopped");
+}
+
+/// Of X.__new__(X), which has no value, pybind11 would read memory that nobody has written: that raises TypeError. So
+/// do pickle's protocols 0 and 1 of what has no __getstate__; of what has one they are as later ones.
+template <class Class>
+void refuse_objects_without_value(Class& type) {
+  py::detail::get_type_info(typeid(typename Class::type))->operator_new = [](std::size_t) -> void* {
+    throw py::type_error("this object has no value: its __init__() was not called");
+  };
+  type.def("__reduce_ex__", [](const py::object& self, int protocol) {
+    return py::module_::import("builtins").attr("object").attr("__reduce_ex__")(self, std::max(protocol, 2));
+  });
+}
 
 }  // namespace tyglab::python

@@ -67,12 +67,13 @@ Preset with_constants(const Preset& preset, const py::dict& constants) {
 
 void add_preset(py::module_& module) {
   module.def("presets", &shipped_presets, "The names of the presets that come with Tyglab.");
-  py::class_<Preset>(
+  py::class_<Preset> preset(
       module, "Preset",
       "Everything that defines a scene: its constants, by the keys of the notation table (docs/notation.md) "
       "and of --set. Preset() is the default cloth, Preset(k_s=200, integrator=\"rk4\") the same with other "
-      "constants. A wrong key or value raises PresetError and changes nothing.")
-      .def(py::init([](const py::kwargs& constants) { return with_constants({}, constants); }))
+      "constants. A wrong key or value raises PresetError and changes nothing.");
+  refuse_objects_without_value(preset);
+  preset.def(py::init([](const py::kwargs& constants) { return with_constants({}, constants); }))
       .def_static(
           "load", [](const std::string& name) { return read_preset(find_preset(name).file); }, py::arg("name"),
           "Reads a shipped preset by its name (presets()), or else a preset file.")

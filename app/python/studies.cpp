@@ -18,19 +18,6 @@
 namespace tyglab::python {
 namespace {
 
-/// Lets the interpreter go on while `work(stop)` runs, and ends it by Ctrl-C.
-template <class Work>
-auto beside_python(const Work& work) {
-  Interrupt interrupt;
-  try {
-    const py::gil_scoped_release unlocked;
-    return work(interrupt.stop());
-  } catch (const Stopped&) {
-  }
-  interrupt.raise();
-  throw py::value_error("the study was stopped");
-}
-
 void check(const Preset& preset, double seconds) {
   if (const std::string problem = check_preset(preset); !problem.empty()) throw PresetError(problem);
   if (!(seconds > 0) || !std::isfinite(seconds)) throw py::value_error("seconds must be above 0");

@@ -112,6 +112,7 @@ void single_step(Session& session, const std::optional<glm::dvec3>& hand) {
   session.pacing.playing = false;
   if (session.rebuild.holds_present() || session.background_steps.busy() || awaits_prediction(session)) return;
   move_hand(session, hand, 1);
+  sample_start(session);
   if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, 1);
   session.steps_made += session.simulation->advance(1).steps;
   copies_follow(session, 0);

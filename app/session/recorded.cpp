@@ -11,7 +11,6 @@
 
 #include "app/session/session.h"
 #include "core/analysis/one_weight.h"
-#include "core/io/terminal.h"
 
 namespace tyglab {
 namespace {
@@ -72,20 +71,30 @@ glm::dvec3 vector_of(const ParticleReadout& r, std::string_view key) {
   return r.a;
 }
 
-std::vector<std::string> height_column_names() {
-  std::vector<std::string> names{"y [m]"};
-  for (std::string_view curve : ReferenceCurves::curves) names.push_back("y_" + std::string(curve) + " [m]");
-  return names;
+std::vector<SeriesColumn> height_columns() {
+  std::vector<SeriesColumn> columns{{"y", "m"}};
+  for (std::string_view curve : ReferenceCurves::curves) columns.push_back({"y_" + std::string(curve), "m"});
+  return columns;
 }
 
-std::vector<std::string> force_column_names() {
-  std::vector<std::string> names;
-  for (std::string_view key : force_keys) names.push_back(std::string(key) + " [N]");
-  return names;
+std::vector<SeriesColumn> force_columns(Source source) {
+  const std::string before = source == Source::particle ? "abs_" : source == Source::sum ? "sum_" : "max_";
+  std::vector<SeriesColumn> columns;
+  for (std::string_view key : force_keys) columns.push_back({before + std::string(key), "N"});
+  return columns;
 }
 
 Source force_source(const Session& session) {
   return session.preset().kind == Kind::one_weight ? Source::particle : session.recorded.chosen;
+}
+
+void sample_start(Session& session) {
+  const Recorded& to = session.recorded;
+  const Wants& wants = session.wants;
+  if (to.paused) return;
+  if (wants.forces && to.forces.empty()) sample_forces(session);
+  if (wants.copies && session.copies.distance.empty()) sample_copies(session);
+  if (wants.height && to.height.empty()) sample_height(session, 0);
 }
 
 void sample(Session& session) {
@@ -138,18 +147,13 @@ void Series::clear() {
   for (auto& column : columns_) column.clear();
 }
 
-std::string Series::csv(std::span<const std::string> names, std::string_view comment) const {
-  assert(names.size() == columns_.size());
-  std::string text = "# " + std::string(comment) + "\nt";
-  for (const std::string& name : names) text += "," + name;
-  text += '\n';
+std::string Series::csv(std::span<const SeriesColumn> columns, const std::string& about) const {
+  assert(columns.size() == columns_.size());
+  std::string text = series_head(columns, about);
+  std::vector<double> row(columns_.size());
   for (std::size_t n = 0; n < t_.size(); ++n) {
-    append_number(text, t_[n], 17);
-    for (const auto& column : columns_) {
-      text += ',';
-      append_number(text, column[n], 9);
-    }
-    text += '\n';
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = columns_[k][n];
+    append_series_row(text, t_[n], row);
   }
   return text;
 }

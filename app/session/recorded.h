@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/model/notation.h"
+#include "core/output/series_csv.h"
 #include "core/simulation.h"
 
 // Samples over simulated time, for plots and their CSV files.
@@ -32,9 +33,8 @@ class Series {
   std::span<const std::size_t> gaps() const { return gaps_; }
   void clear();
   std::size_t bytes() const { return t_.capacity() * sizeof(double) * (1 + columns_.size()); }
-  /// Text of a CSV file like those of `tyglab run --series`: a comment, a header with t and these names ("F_s [N]"),
-  /// rows with nine significant digits, t with 17.
-  std::string csv(std::span<const std::string> names, std::string_view comment) const;
+  /// Text of a CSV file as `tyglab run --series` writes it.
+  std::string csv(std::span<const SeriesColumn> columns, const std::string& about) const;
 
  private:
   static constexpr std::size_t most = 40000;
@@ -65,14 +65,17 @@ inline constexpr std::array<std::string_view, Recorded::forces_count> force_keys
 const Variable& variable(std::string_view key);
 /// A variable of table B.1 by its key in the notation table, in its own unit.
 glm::dvec3 vector_of(const ParticleReadout& readout, std::string_view key);
-/// "F_s [N]", …
-std::vector<std::string> force_column_names();
-/// "y [m]", "y_euler [m]", … of Recorded::height.
-std::vector<std::string> height_column_names();
+/// Of Recorded::forces: abs_F_s of a particle, sum_F_s or max_F_s of all, as `run --series` names them; all are
+/// magnitudes.
+std::vector<SeriesColumn> force_columns(Source source);
+/// y, y_euler, … of Recorded::height.
+std::vector<SeriesColumn> height_columns();
 
 struct Session;
 /// What the force plot follows: of a weight the weight, whatever was chosen for cloths.
 Source force_source(const Session& session);
+/// Before the first steps of a plot: a series begins with the present state, at t = 0 after a restart.
+void sample_start(Session& session);
 /// Takes the samples that are wanted of the steps just made.
 void sample(Session& session);
 /// How many steps apart samples are taken within a frame, so that what is plotted does not depend on how often pictures

@@ -128,6 +128,7 @@ void Session::make_steps(int due, const SessionInput& input) {
   const int samples = steps_between_samples(*this);
   int made = 0;
   double stepping_s = 0;
+  if (due > 0) sample_start(*this);
   while (made < due && !simulation->divergence() && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
     const double cost = pacing.step_cost_s();
     const int to_sample = std::max(samples - int(steps_made - recorded.sampled), 1);

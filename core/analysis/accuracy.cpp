@@ -56,7 +56,7 @@ std::string_view name_of(AccuracyStatus status) {
 }
 
 bool can_tell(const Reference& reference, double error_rms_m) {
-  return error_rms_m >= 10 * reference.agreement_rms_m;
+  return error_rms_m >= reference_margin * reference.agreement_rms_m;
 }
 
 AccuracyStatus judged(const Reference& reference, double error_rms_m) {

@@ -163,7 +163,7 @@ void measure_convergence(const StudyStart& start, double seconds, const StudyEff
       point.error_rms_m = infinite;
     } else if (study.referenced) {
       point.error_rms_m = rms_distance(now.track, exact);
-      point.resolved = point.error_rms_m >= 10 * study.reference.agreement_rms_m;
+      point.resolved = point.error_rms_m >= reference_margin * study.reference.agreement_rms_m;
     }
     if (!coarser.empty() && !now.track.empty()) study.points.back().difference_rms_m = rms_distance(coarser, now.track);
     study.points.push_back(point);

@@ -175,7 +175,7 @@ ErrorPoint measure_point(const StudyStart& start, const StudyReference& referenc
     if (!whole) break;
   }
   point.cost = took / reference.seconds;
-  point.resolved = point.error_rms_m >= 10 * reference.agreement_rms_m;
+  point.resolved = point.error_rms_m >= reference_margin * reference.agreement_rms_m;
   return point;
 }
 

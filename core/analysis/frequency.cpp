@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
+#include "core/analysis/reference.h"
 #include "core/engines/implicit/stiffness.h"
 
 namespace tyglab {
@@ -71,8 +73,9 @@ struct Linearisation::Tridiagonal {
   }
 };
 
-Linearisation::Linearisation(const Simulation& simulation)
-    : rows_(simulation.lattice().rows),
+Linearisation::Linearisation(const Simulation& simulation, Stop stop)
+    : stop_(std::move(stop)),
+      rows_(simulation.lattice().rows),
       columns_(simulation.lattice().columns),
       stride_(simd::row_stride<double>(columns_)),
       damped_(simulation.preset().k_d > 0),
@@ -166,9 +169,11 @@ double Linearisation::inner(const Field& a, const Field& b) const {
 
 double Linearisation::multiply(const Array<double>& a, const Field& p, Field& q) const {
   double sum = 0;
-  for (int i = 0; i < rows_; ++i)
+  for (int i = 0; i < rows_; ++i) {
+    if (stop_ && stop_()) throw Stopped();
     sum += implicit::multiply_row(implicit::ProductTask<double>{a.data() + i * coefficient_pitch(stride_), p.row(i),
                                                                 q.row(i), stride_, columns_, i == 0, 0});
+  }
   for (const int n : fixed_)
     for (int c = 0; c < 3; ++c) q.row(n / columns_, c)[n % columns_] = 0;
   return sum;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/model/preset.h"
 #include "core/simd/row_field.h"
 #include "core/simulation.h"
 #include "core/theory/modes.h"
@@ -18,7 +19,8 @@ inline constexpr double exact_tolerance = 1e-5;
 /// The cloth's K and C as it stands, over its mass.
 class Linearisation {
  public:
-  explicit Linearisation(const Simulation& simulation);
+  /// Its modes throw Stopped soon after `stop` says so.
+  explicit Linearisation(const Simulation& simulation, Stop stop = {});
 
   /// The mode in which `stiffness`·K + `damping`·C is largest; stiffness >= 0.
   Mode extreme(double stiffness, double damping, double tolerance) const;
@@ -40,6 +42,7 @@ class Linearisation {
   bool next(const Array<double>& a, Field& before, Field& now, Field& product, Tridiagonal& t) const;
   double inner(const Field& a, const Field& b) const;
 
+  Stop stop_;
   int rows_, columns_, stride_;
   bool damped_;
   Mode weight_;  ///< the mass on a spring's, which is no lattice

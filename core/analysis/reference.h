@@ -36,6 +36,9 @@ std::vector<glm::dvec3> positions_of(const Simulation& simulation);
 /// Root of the mean over times and particles of the squared distance, m; infinite where a value is not finite.
 double rms_distance(const Track& a, const Track& b);
 
+/// An error counts as measured from this many times the distance between two independent references on.
+constexpr double reference_margin = 10;
+
 struct Reference {
   Track track;
   std::vector<std::string> made_by;  ///< one sentence for each of two independent ones; the first is `track`

@@ -28,11 +28,6 @@ constexpr double aim = 0.5;            // of the tolerance
 constexpr double most_effort = 3e9;    // particles times force evaluations of a reference: some ten seconds
 constexpr double search_patience = 8;  // s of processor time for all settings
 
-/// Times the disagreement of references is what can be promised: twice as much where errors do not fall evenly.
-double certainty(bool rough) {
-  return rough ? 20 : 10;
-}
-
 std::string two_digits(double value) {
   return short_number(value, 2);
 }
@@ -131,7 +126,7 @@ class Searcher {
  public:
   Searcher(const StudyStart& start, const StudyReference& reference, SettingsSearch& search, const Stop& stop)
       : start_(start), reference_(reference), search_(search), stop_(stop) {
-    enough_ = aim * std::max(search.goal.tolerance, certainty(search.rough) * reference.agreement_rms_m);
+    enough_ = aim * std::max(search.goal.tolerance, search.margin() * reference.agreement_rms_m);
     effort_.point = std::max(effort_.point, reference_effort(start.preset, reference.seconds, 16) / 2);
   }
 
@@ -214,12 +209,12 @@ void measure_settings(const StudyStart& start, SettingsSearch& search, const Sto
   if (more && !std::isfinite(searcher.best_cost())) try_all(Precision::double_);
 }
 
+}  // namespace
+
 double two_digits_above(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return rounded(std::ceil(value / unit * (1 - 1e-12)) * unit, 2);
 }
-
-}  // namespace
 
 double SettingsSearch::part_done() const {
   return (reference_part + (methods > 0 ? double(methods_done) / methods : 0)) / 2;
@@ -244,7 +239,7 @@ SettingsSearch search_settings(const StudyStart& start, const SettingsGoal& goal
 
 std::vector<ErrorPoint> settings_for(const SettingsSearch& search, double tolerance) {
   std::vector<ErrorPoint> reached;
-  if (!(certainty(search.rough) * search.agreement_rms_m <= tolerance)) return reached;
+  if (!(search.margin() * search.agreement_rms_m <= tolerance)) return reached;
   for (const auto& method : grouped_by_method(search.points))
     if (const ErrorPoint* best = cheapest(method, search.rough, aim * tolerance)) reached.push_back(*best);
   std::stable_sort(reached.begin(), reached.end(),
@@ -252,12 +247,24 @@ std::vector<ErrorPoint> settings_for(const SettingsSearch& search, double tolera
   return reached;
 }
 
-double tightest_tolerance(const SettingsSearch& search) {
+double least_reliable_error(const SettingsSearch& search, const ErrorPoint** of) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& method : grouped_by_method(search.points))
-    for (const double error : reliable_errors(method, search.rough)) least = std::min(least, error);
+  if (of != nullptr) *of = nullptr;
+  for (const auto& method : grouped_by_method(search.points)) {
+    const std::vector<double> errors = reliable_errors(method, search.rough);
+    for (std::size_t n = 0; n < errors.size(); ++n)
+      if (errors[n] < least) {
+        least = errors[n];
+        if (of != nullptr) *of = &method[n];
+      }
+  }
+  return least;
+}
+
+double tightest_tolerance(const SettingsSearch& search) {
+  const double least = least_reliable_error(search);
   if (!std::isfinite(least)) return least;
-  return two_digits_above(std::max(least / aim, certainty(search.rough) * search.agreement_rms_m));
+  return two_digits_above(std::max(least / aim, search.margin() * search.agreement_rms_m));
 }
 
 Preset with_setting(const Preset& preset, const ErrorPoint& point) {

@@ -45,6 +45,8 @@ struct SettingsSearch {
 
   /// How much of the search is done, 0 to 1: fine runs and methods count as half of it each.
   double part_done() const;
+  /// How many times the distance between references a tolerance must be: twice as many where errors do not fall evenly.
+  double margin() const { return rough ? 2 * reference_margin : reference_margin; }
 };
 
 /// Measures settings until the goal is reached by each method that can; tells `found` what it knows after every step of
@@ -55,10 +57,15 @@ SettingsSearch search_settings(const StudyStart& start, const SettingsGoal& goal
 
 /// The cheapest setting of each method whose error is at most half the tolerance (m), cheapest first: half, since
 /// errors were looked at a few times only. Where errors do not fall evenly, a setting counts only if the finer ones
-/// measured, and there is one, reach it too. Nothing where the references differ by more than a tenth of the tolerance,
-/// or a twentieth where there are bodies or tears.
-/// From one search a looser tolerance never costs more than a tighter one.
+/// measured, and there is one, reach it too. Nothing where the tolerance is less than the search's margin times the
+/// distance between references. From one search a looser tolerance never costs more than a tighter one.
 std::vector<ErrorPoint> settings_for(const SettingsSearch& search, double tolerance);
+
+/// The least error that a setting can be relied on for, m; `of` becomes that setting. Infinite and null where there is
+/// none.
+double least_reliable_error(const SettingsSearch& search, const ErrorPoint** of = nullptr);
+
+double two_digits_above(double value);
 
 /// The tightest tolerance for which there is a setting, m, in two digits; infinite where there is none.
 double tightest_tolerance(const SettingsSearch& search);

@@ -19,25 +19,17 @@ std::string settings_of(const ErrorPoint& point) {
   return point.integrator + ", " + step + ", " + std::string(name_of(point.precision));
 }
 
-/// The usable setting with the least error; null where there is none.
-const ErrorPoint* most_accurate(const std::vector<ErrorPoint>& points) {
-  const ErrorPoint* least = nullptr;
-  for (const ErrorPoint& point : points)
-    if (std::isfinite(point.error_rms_m) && (least == nullptr || point.error_rms_m < least->error_rms_m))
-      least = &point;
-  return least;
-}
-
-/// Why there is nothing for the tolerance.
+/// Why there is nothing for the tolerance. Its figures are rounded away from it, so that they never contradict it.
 std::string why_refused(const SettingsSearch& search, double tolerance) {
-  if (10 * search.agreement_rms_m > tolerance)
-    return number(tolerance) + " m cannot be promised over the first " + number(search.seconds) + " s: fine runs (" +
-           search.references + ") differ by " + number(search.agreement_rms_m) +
-           " m, and must agree to well below the tolerance";
-  const ErrorPoint* least = most_accurate(search.points);
-  return "no method reaches " + number(tolerance) + " m here with a margin of two" +
-         (least != nullptr ? "; the best was " + settings_of(*least) + " with " + number(least->error_rms_m) + " m"
-                           : "") +
+  if (search.margin() * search.agreement_rms_m > tolerance)
+    return shortest_number(tolerance) + " m cannot be promised over the first " + number(search.seconds) +
+           " s: fine runs (" + search.references + ") differ by " + number(two_digits_above(search.agreement_rms_m)) +
+           " m, and a tolerance must be at least " + number(search.margin()) + " times that";
+  const ErrorPoint* best = nullptr;
+  const double least = least_reliable_error(search, &best);
+  return "no method reaches " + shortest_number(tolerance) + " m here with a margin of two" +
+         (best != nullptr ? "; the best was " + settings_of(*best) + " with " + number(two_digits_above(least)) + " m"
+                          : "") +
          (search.goal.keeps.integrator ? "; leave the method open for more" : "") +
          (search.goal.keeps.precision && search.of.precision == Precision::float_
               ? "; leave the precision open for more"
@@ -51,10 +43,11 @@ std::string ToleranceChoice::words(double tolerance) const {
   if (used.tolerance == 0) used.dt = preset.dt;
   const std::string within =
       used.tolerance > 0 ? " (in steps of its own within dt = " + number(preset.dt) + " s)" : std::string();
-  std::string text = settings_of(used) + within + ": error " + (chosen.resolved ? "" : "below ") +
-                     number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
-                     " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) +
-                     " m was requested; it takes " + number(chosen.cost) + " s of CPU time per simulated second.";
+  std::string text =
+      settings_of(used) + within + ": error " + (chosen.resolved ? "" : "below ") +
+      number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, reference_margin * agreement_rms_m)) +
+      " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) + " m was requested; it takes " +
+      number(chosen.cost) + " s of CPU time per simulated second.";
   if (reached.size() > 1)
     text += " The next best is " + settings_of(reached[1]) + ", at " + number(reached[1].cost / chosen.cost) +
             " times that cost.";

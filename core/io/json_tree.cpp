@@ -69,14 +69,14 @@ class JsonReader {
     return 1 + int(std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xC0) != 0x80; }));
   }
   [[noreturn]] void fail_at(std::size_t at, const std::string& why, Columns columns = Columns::told) const {
-    std::string where = source_;
+    std::string where = excerpt(source_, 300);
     if (lines_ == Lines::told) where += ":" + std::to_string(line_of(at));
     if (columns == Columns::told) where += ": column " + std::to_string(column_of(at));
     throw PresetError(printable(where + ": " + why));
   }
   [[noreturn]] void fail(const std::string& why) const { fail_at(at_, why); }
   /// With the key that it is about.
-  std::string named(const std::string& why) const { return path_.empty() ? why : path_ + ": " + why; }
+  std::string named(const std::string& why) const { return path_.empty() ? why : excerpt(path_, 200) + ": " + why; }
   /// It is JSON, but not what is wanted.
   [[noreturn]] void refuse(const std::string& why) const { fail_at(at_, named(why), Columns::none); }
   /// The text ends where more must come.
@@ -311,6 +311,12 @@ std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
   return text;
+}
+
+std::string excerpt(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  while (most > 0 && (text[most] & 0xC0) == 0x80) --most;
+  return std::string(text.substr(0, most)) + "…";
 }
 
 JsonNode parse_json(std::string_view text, std::string_view source, Lines lines, std::size_t max_values) {

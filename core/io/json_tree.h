@@ -35,6 +35,8 @@ std::string_view type_name(JsonNode::Type type);
 
 /// With control characters as spaces: a key of a file must not end an error message early, or reach a terminal as code.
 std::string printable(std::string text);
+/// At most that many bytes of the text, and a mark where it goes on: a link or a key may have megabytes.
+std::string excerpt(std::string_view text, std::size_t most = 60);
 
 /// Whether errors tell lines, or the text is one (a --set).
 enum class Lines { told, one };

@@ -80,8 +80,8 @@ class Reader {
 
   [[noreturn]] void fail(int line, const std::string& path, const std::string& why) const {
     const std::string key = at_ + (at_.empty() || path.empty() ? "" : ".") + path;
-    throw PresetError(printable(source_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key +
-                                (key.empty() ? "" : ": ") + why));
+    throw PresetError(printable(excerpt(source_, 300) + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
+                                excerpt(key, 200) + (key.empty() ? "" : ": ") + why));
   }
   [[noreturn]] void wrong_type(const JsonNode& node, const std::string& path, std::string_view expected) const {
     constexpr std::size_t short_enough = 30;  // bytes of a text that is worth repeating
@@ -105,7 +105,8 @@ class Reader {
     const auto it = std::find(names.begin(), names.end(), node.text);
     if (it == names.end())
       fail(node.line, path,
-           "\"" + node.text + "\" is not known" + did_you_mean(node.text, names, ".") + " Allowed: " + joined(names));
+           "\"" + excerpt(node.text) + "\" is not known" + did_you_mean(node.text, names, ".") +
+               " Allowed: " + joined(names));
     out = Enum(it - names.begin());
   }
 
@@ -327,13 +328,15 @@ std::string texture_problem(const std::string& texture, const std::filesystem::p
       "or choose it with --set texture=FILE";
   const std::filesystem::path named(texture);
   if (named.is_absolute() || std::find(named.begin(), named.end(), "..") != named.end())
-    return "'" + texture + "' lies outside the preset's folder" + advice;
+    return "'" + excerpt(texture, 200) + "' lies outside the preset's folder" + advice;
   std::error_code error;
   const std::filesystem::path inside = std::filesystem::canonical(folder, error);
   const std::filesystem::path image = std::filesystem::canonical(folder / named, error);
   if (error) return {};  // it is missing, which is no error
   const auto [end, rest] = std::mismatch(inside.begin(), inside.end(), image.begin(), image.end());
-  return end == inside.end() ? "" : "'" + texture + "' is a link that leads out of the preset's folder" + advice;
+  return end == inside.end()
+             ? ""
+             : "'" + excerpt(texture, 200) + "' is a link that leads out of the preset's folder" + advice;
 }
 
 Preset parse_preset(std::string_view text, std::string_view source, const std::filesystem::path& folder) {

@@ -26,6 +26,44 @@ void for_whole_triangles(const Tears& tears, Visit visit) {
       }
 }
 
+/// Whether a whole stretch spring is a thread of its own: no whole triangle has it as an edge or, of a diagonal that
+/// crosses its quad's other one, shares its quad.
+bool is_lone(const Tears& tears, int direction, int i, int j) {
+  const Direction& to = directions[std::size_t(direction)];
+  const int first_i = std::min(i, i + to.di), first_j = std::min(j, j + to.dj);
+  const bool diagonal = to.di != 0 && to.dj != 0;
+  const auto has_edge = [&](const auto& corners, int qi, int qj) {
+    const auto is_corner = [&](int pi, int pj) {
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](const Corner& corner) { return qi + corner.di == pi && qj + corner.dj == pj; });
+    };
+    return is_corner(i, j) && is_corner(i + to.di, j + to.dj);
+  };
+  const Lattice& lattice = tears.lattice();
+  for (int qi = first_i - (to.di == 0 ? 1 : 0); qi <= first_i; ++qi)
+    for (int qj = first_j - (to.dj == 0 ? 1 : 0); qj <= first_j; ++qj) {
+      if (qi < 0 || qj < 0 || qi + 1 >= lattice.rows || qj + 1 >= lattice.columns) continue;
+      for (int which = 0; which < 2; ++which)
+        if (tears.triangle_whole(qi, qj, which) && (diagonal || has_edge(quad_triangles[(qi + qj) & 1][which], qi, qj)))
+          return false;
+    }
+  return true;
+}
+
+/// Calls visit(p0, p1) for every thread that is part of no whole triangle.
+template <class Visit>
+void for_lone_threads(const Tears& tears, Visit visit) {
+  const Lattice& lattice = tears.lattice();
+  if (tears.untorn() && lattice.columns > 1) return;
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j)
+      for (int d = 0; d < stretch_directions; ++d) {
+        const int to_i = i + directions[d].di, to_j = j + directions[d].dj;
+        if (!lattice.contains(to_i, to_j) || !tears.whole(d, i, j) || !is_lone(tears, d, i, j)) continue;
+        visit(std::size_t(i) * lattice.columns + j, std::size_t(to_i) * lattice.columns + to_j);
+      }
+}
+
 void append_line(std::string& text, std::string_view keyword, std::initializer_list<double> values) {
   constexpr int digits = 9;  // every float comes back exactly, and programs that read OBJ hold floats
   text += keyword;
@@ -73,7 +111,9 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
     append_number(text, frame.fps, 9);
     text += " frames per second";
   }
-  text += "\no cloth\n";
+  text += '\n';
+  if (!frame.material.empty()) text += "mtllib " + frame.material + '\n';
+  text += "o cloth\n";
 
   for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) {
     for (const double value : {x.x[p], x.y[p], x.z[p]}) float_coordinate(value);
@@ -84,6 +124,7 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
       append_line(text, "vt",
                   {lattice.columns > 1 ? double(j) / (lattice.columns - 1) : 0.0, 1 - double(i) / (lattice.rows - 1)});
   for (const glm::dvec3& n : vertex_normals(tears, x)) append_line(text, "vn", {n.x, n.y, n.z});
+  if (!frame.material.empty()) text += "usemtl cloth\n";
   for_whole_triangles(tears, [&](std::size_t a, std::size_t b, std::size_t c) {
     text += 'f';
     for (const std::size_t p : {a, b, c}) {
@@ -92,7 +133,14 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
     }
     text += '\n';
   });
+  for_lone_threads(tears, [&](std::size_t a, std::size_t b) {
+    text += "l " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + '\n';
+  });
   return text;
+}
+
+std::string material_text(const std::string& image) {
+  return "# Tyglab\nnewmtl cloth\nKd 1 1 1\n" + (image.empty() ? "" : "map_Kd " + image + '\n');
 }
 
 void write_obj(const std::filesystem::path& file, const Tears& tears, const VectorField<double>& x,

@@ -7,26 +7,33 @@
 
 namespace tyglab {
 
+std::string series_head(std::span<const SeriesColumn> columns, const std::string& about) {
+  std::string head = "# tyglab series, t in s, " + about + "\nt";
+  for (const SeriesColumn& column : columns) {
+    head += ',' + column.name;
+    if (!column.unit.empty()) head += " [" + column.unit + ']';
+  }
+  return head + '\n';
+}
+
+void append_series_row(std::string& text, double t, std::span<const double> values) {
+  append_number(text, t, 17);
+  for (const double value : values) {
+    text += ',';
+    append_number(text, value, 9);
+  }
+  text += '\n';
+}
+
 SeriesCsv::SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns,
                      const std::string& preset_hash)
     : out_(file) {
-  std::string header = "# tyglab series, t in s, preset hash " + preset_hash + "\nt";
-  for (const SeriesColumn& column : columns) {
-    header += ',' + column.name;
-    if (!column.unit.empty()) header += " [" + column.unit + ']';
-  }
-  out_.write(header + '\n');
+  out_.write(series_head(columns, "preset hash " + preset_hash));
 }
 
 void SeriesCsv::add(double t, std::span<const double> values) {
-  constexpr int digits = 9;
   row_.clear();
-  append_number(row_, t, 17);
-  for (const double value : values) {
-    row_ += ',';
-    append_number(row_, value, digits);
-  }
-  row_ += '\n';
+  append_series_row(row_, t, values);
   out_.write(row_);
   out_.keep();
 }

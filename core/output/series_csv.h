@@ -17,8 +17,13 @@ struct SeriesColumn {
   std::string unit;  ///< "N", empty if dimensionless
 };
 
-/// Writes a time series row by row: a comment, which names the unit of t; a header `t,NAME [UNIT],…`; rows with nine
-/// significant digits. Every row is written as it is added, so that a run cut short leaves whole rows (OutputFile).
+/// A series' first two lines: a comment ("# tyglab series, t in s, " and `about`) and a header `t,NAME [UNIT],…`.
+std::string series_head(std::span<const SeriesColumn> columns, const std::string& about);
+/// A row: t with 17 significant digits, values with nine.
+void append_series_row(std::string& text, double t, std::span<const double> values);
+
+/// Writes a time series row by row. Every row is written as it is added, so that a run cut short leaves whole rows
+/// (OutputFile).
 class SeriesCsv {
  public:
   /// Begins the file, or standard output ("-"), with the header. Throws OutputError.

@@ -133,6 +133,55 @@ TEST_CASE("what was typed stays, and what cannot be reached is refused with a re
                   Stopped);
 }
 
+/// What a search may have found: random errors of three methods, some of which failed.
+SettingsSearch random_search(test::Random& random) {
+  SettingsSearch known;
+  const auto power = [&](double lo, double hi) { return std::pow(10, random.uniform(lo, hi)); };
+  known.rough = random.below(2) == 0, known.seconds = 1;
+  known.agreement_rms_m = power(-9, -2);
+  for (const char* method : {"verlet", "rk4", "implicit_euler"})
+    for (int n = 1 + random.below(4); n > 0; --n)
+      known.points.push_back({.integrator = method,
+                              .dt = 1e-3 * n,
+                              .error_rms_m = power(-8, -1),
+                              .cost = power(-2, 1),
+                              .converged = random.below(5) > 0,
+                              .given_up = random.below(9) == 0});
+  return known;
+}
+
+TEST_CASE("a refusal never contradicts its figures, and what it offers can be had") {
+  test::Random random(1);
+  int differ = 0, best = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const SettingsSearch known = random_search(random);
+    const double tolerance = std::pow(10, random.uniform(-8, 0));
+    CAPTURE(tolerance);
+    try {
+      reached_or_refused(known, tolerance);
+    } catch (const ToleranceError& refusal) {
+      const std::string words = refusal.what();
+      CAPTURE(words);
+      const auto figure_after = [&](const char* before) {
+        return std::stod(words.substr(words.find(before) + std::string(before).size()));
+      };
+      if (words.find("differ by ") != std::string::npos) {
+        CHECK(figure_after("differ by ") * figure_after("at least ") > tolerance);
+        ++differ;
+      } else if (words.find("; the best was") != std::string::npos) {
+        CHECK(2 * figure_after(" double with ") > tolerance);
+        ++best;
+      }
+      if (!refusal.tightest) continue;
+      CHECK(*refusal.tightest > tolerance);
+      CHECK(figure_after("can be promised is ") == doctest::Approx(*refusal.tightest));
+      CHECK_FALSE(reached_or_refused(known, *refusal.tightest).empty());
+    }
+  }
+  CHECK(differ > 100);
+  CHECK(best > 100);
+}
+
 /// The largest error of a chosen run within the second, at twenty times, against Runge-Kutta with steps of at most
 /// 2e-5 s: neither its method nor its steps are those that the choice was made by.
 double error_of_choice(const Preset& chosen) {

@@ -1,9 +1,14 @@
 // Links: an experiment's constants at the end of a page's address.
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "app/base/files.h"
 #include "app/base/text.h"
 #include "core/io/preset_io.h"
+#include "core/simulation.h"
+#include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::link_test {
 
@@ -58,7 +63,6 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(linked_preset(read_link("https://example.org/tyglab/?embed#flag&k_s=80")).k_s == 80);
   CHECK(linked_preset(read_link("#flag&W=%5B0%2C0%2c0.01%5D")).W.z == 0.01);
   CHECK(linked_preset(read_link("#k_s=80")) == linked_preset(read_link("#hanging&k_s=80")));
-  CHECK(read_link("https://example.org/").name == "hanging");
   CHECK(read_link("HTTPS://example.org/?embed&preset=flag&panels=0").name == "flag");
   CHECK(read_link("https://example.org/?preset=sphere").name == "sphere");
   // What stands before the # counts where the link names no preset of its own.
@@ -67,14 +71,52 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(read_link("https://example.org/?embed&preset=flag#").name == "flag");
   CHECK(read_link("https://example.org/?preset=flag&report#sphere&k_s=80").name == "sphere");
   CHECK(read_link("https://example.org/?lab=03_stiffness&report#k_s=80").name == "hanging");
-  for (const char* link : {"https://example.org/hanging&k_s=300", "https://example.org/%23flag",
-                           "https://example.org/?embed&preset=flag&k_s=300"})
-    CHECK_THROWS_WITH_AS(read_link(link), doctest::Contains("has no #"), PresetError);
+  CHECK(read_link("#").name == "hanging");
+  CHECK(problem_of("https://example.org/?embed&preset=flag&k_s=300").find("has no #") != std::string::npos);
   CHECK(is_link("#flag"));
   CHECK(is_link("Http://a"));
   CHECK_FALSE(is_link("flag"));
+  CHECK(is_link("ftp://a"));
   CHECK_FALSE(is_link("http"));
   CHECK_FALSE(is_link("my#file.json"));
+}
+
+TEST_CASE("an address without an experiment is refused, with what to do instead") {
+  for (const char* address : {"https://example.org/my_preset.json", "https://example.org/my_preset.json?raw=1#k_s=80",
+                              "https://example.org/file?id=3", "ftp://example.org/my_preset.json",
+                              "https://example.org/", "https://example.org/#", "https://example.org/?embed",
+                              "https://example.org/hanging&k_s=300", "https://example.org/%23flag"}) {
+    CAPTURE(address);
+    CHECK(problem_of(address).find("download the file first") != std::string::npos);
+  }
+  CHECK(problem_of("file:///home/a/my%20own.json").find("by its path: '/home/a/my own.json'") != std::string::npos);
+  CHECK(problem_of("file://").find("by its path") != std::string::npos);
+}
+
+/// The links in a text, each as it would be copied.
+std::vector<std::string> links_in(const std::string& text) {
+  std::vector<std::string> links;
+  for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
+    const std::string link = text.substr(at, text.find_first_of("` '\"\n)", at) - at);
+    if (link.find('=') != std::string::npos) links.push_back(link);
+  }
+  return links;
+}
+
+TEST_CASE("the links that pages and messages give as examples last") {
+  std::string text = problem_of("#nothing").substr(20) + "\n" + problem_of("https://example.org/");
+  const std::filesystem::path docs = std::filesystem::path(test::source_dir) / "docs";
+  for (const auto& entry : std::filesystem::directory_iterator(docs))
+    if (entry.path().extension() == ".md") text += "\n" + test::read_file(entry.path());
+  for (const char* page : {"README.md", "CHANGELOG.md"}) text += "\n" + test::read_file(docs / ".." / page);
+  const std::vector<std::string> links = links_in(text);
+  CHECK(links.size() >= 5);
+  for (const std::string& link : std::set<std::string>(links.begin(), links.end())) {
+    CAPTURE(link);
+    Simulation simulation(linked_preset(read_link(link)));
+    simulation.advance(5000);
+    CHECK_FALSE(simulation.divergence());
+  }
 }
 
 TEST_CASE("a body's JSON stands in a link without spaces, and of a long link the beginning is quoted") {
@@ -83,7 +125,15 @@ TEST_CASE("a body's JSON stands in a link without spaces, and of a long link the
   const std::string link = link_to(preset, "hanging");
   CHECK(link.find("%20") == std::string::npos);
   CHECK(link.find("bodies=[%7B%22shape%22:%22plane%22") != std::string::npos);
-  CHECK(problem_of("#" + std::string(5000, 'x')).size() < 600);
+  const std::string much(40000, '1');
+  for (const std::string& long_link :
+       {"#" + much, "#hanging&" + much, "#hanging&k_s=" + much, "#hanging&" + much + "=3",
+        "#hanging&integrator=" + much, "#hanging&name=" + much, "#hanging&bodies=" + much,
+        "#hanging&bodies=[{\"" + much + "\":1}]", "#hanging&texture=" + much, "#hanging&" + much + "=%",
+        "https://example.org/" + much, "https://example.org/?preset=" + much, "https://example.org/?lab=" + much})
+    CHECK(problem_of(long_link).size() < 900);
+  for (const std::string& word : {much, much + ".json"})
+    CHECK_THROWS_WITH_AS(find_preset(word), doctest::Contains("…"), PresetError);
 }
 
 TEST_CASE("what is wrong with a link is named") {

@@ -84,11 +84,11 @@ TEST_CASE("a series keeps its order, forgets its oldest samples, and writes a ta
   CHECK(series.column(0).back() == 99999);
   series.add(0.5, std::vector<double>{1, 2});  // a restart
   CHECK(series.size() == 1);
-  const std::vector<std::string> names{"F_s [N]", "F [N]"};
-  const auto rows = test::lines(series.csv(names, "a comment"));
+  const std::vector<SeriesColumn> columns{{"F_s", "N"}, {"share", ""}};
+  const auto rows = test::lines(series.csv(columns, "a comment"));
   REQUIRE(rows.size() == 3);
-  CHECK(rows[0] == "# a comment");
-  CHECK(rows[1] == "t,F_s [N],F [N]");
+  CHECK(rows[0] == "# tyglab series, t in s, a comment");
+  CHECK(rows[1] == "t,F_s [N],share");
   CHECK(rows[2] == "0.5,1,2");
 }
 

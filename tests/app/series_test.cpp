@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "app/session/motion.h"
 #include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 
@@ -59,6 +60,46 @@ TEST_CASE("what is plotted of a particle does not depend on how often pictures a
   };
   CHECK(samples(4) == doctest::Approx(240).epsilon(0.1));
   CHECK(samples(30) == doctest::Approx(240).epsilon(0.15));
+}
+
+TEST_CASE("a plot's file is a series of `run`: from t = 0 on, with the same names and values") {
+  const Preset preset = test::cloth(6, 6);
+  test::Desk desk(preset);
+  Recorded& recorded = desk.session.recorded;
+  recorded.chosen = Source::sum;
+  const auto play = [&] {
+    desk.session.pacing.playing = desk.session.pacing.patient = true;
+    for (int n = 0; n < 3; ++n) {
+      desk.session.wants.forces = true;
+      desk.session.update(0.04, {});
+    }
+    desk.session.pacing.playing = false;
+  };
+  play();
+  Simulation start(preset);
+  const std::vector<SeriesColumn> columns = series_columns(preset.kind), plotted = force_columns(Source::sum);
+  const std::vector<double> values = series_values(start);
+  int shared = 0;
+  for (std::size_t k = 0; k < plotted.size(); ++k)
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (columns[c].name == plotted[k].name) {
+        CHECK(recorded.forces.column(k)[0] == values[c]);
+        CHECK(columns[c].unit == plotted[k].unit);
+        ++shared;
+      }
+  CHECK(shared == 4);
+  CHECK(recorded.forces.t()[0] == 0);
+  CHECK(recorded.forces.size() > 1);
+  restart(desk.session);
+  play();
+  CHECK(recorded.forces.t()[0] == 0);
+  restart(desk.session);
+  desk.session.wants.forces = true;
+  single_step(desk.session, {});
+  desk.session.update(0, {});
+  REQUIRE(recorded.forces.size() == 2);
+  CHECK(recorded.forces.t()[0] == 0);
+  CHECK(recorded.forces.t()[1] == preset.dt);
 }
 
 }  // namespace tyglab::series_test

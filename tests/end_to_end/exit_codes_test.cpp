@@ -63,7 +63,9 @@ TEST_CASE("a page's link is a preset; 3: one that is broken") {
   CHECK(state({"#flag&k_s=90&W=[0,0,0.01]", "--set", "k_s=80"}) == typed);
   check_calls({{{"run", "#nothing", "--steps", "1"}, 3, "names no shipped preset: 'nothing'"},
                {{"run", "https://example.org/#flag&k_s=x%", "--steps", "1"}, 3, "hexadecimal"},
-               {{"run", "#flag&k_s=-1", "--steps", "1"}, 3, "The link's k_s=-1"}},
+               {{"run", "#flag&k_s=-1", "--steps", "1"}, 3, "The link's k_s=-1"},
+               {{"run", "https://example.org/my_preset.json", "--steps", "1"}, 3, "download the file first"},
+               {{"https://example.org/my_preset.json", "--frames", "1"}, 3, "download the file first"}},
               folder.path());
 }
 
@@ -341,6 +343,27 @@ TEST_CASE("130: Ctrl-C while a huge cloth is built ends at once, with a sentence
       {"run", "hanging", "--set", "rows=4096", "--set", "columns=4096", "--steps", "100000", "--state", "s.csv"}, 0.5);
   CHECK(outcome.code == 130);
   CHECK(outcome.err.find("Interrupted") != std::string::npos);
+}
+
+TEST_CASE("130: of a large cloth what takes long to show is left out after Ctrl-C") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> scene{"hanging", "--set", "rows=520", "--set", "columns=500", "--seconds", "1000"};
+  const auto call = [&](std::vector<std::string> command, const std::vector<std::string>& more) {
+    command.insert(command.end(), scene.begin(), scene.end());
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  };
+  const auto outcome =
+      test::tyglab_interrupted(folder.path(), call({"run"}, {"--state", "s.csv", "--series", "t.csv", "--json", "j"}),
+                               0.5, SIGINT, folder / "t.csv.incomplete");
+  CHECK(outcome.code == 130);
+  CHECK_MESSAGE(outcome.err.find("The last state was left out") != std::string::npos, outcome.err);
+  CHECK_MESSAGE(outcome.out.find("Wrote t.csv.incomplete, j.") != std::string::npos, outcome.out);
+  CHECK_FALSE(fs::exists(folder / "s.csv"));
+  CHECK(test::read_file(folder / "j").find("\"interrupted\"") != std::string::npos);
+  const auto drawn = test::tyglab_interrupted(folder.path(), call({"render"}, {"--png", "a.png"}), 1.5);
+  CHECK(drawn.code == 130);
+  CHECK_FALSE(fs::exists(folder / "a.png"));
 }
 
 TEST_CASE("130: a single step that would take minutes is interrupted, and what was asked for is written") {

@@ -175,6 +175,21 @@ TEST_CASE("2: two outputs that are one file are refused, also by links to what i
   CHECK_FALSE(fs::exists(folder / "s.csv"));
 }
 
+TEST_CASE("--mtl puts the material and the texture beside the meshes, which assimp finds") {
+  const test::TemporaryFolder folder;
+  const auto outcome = test::tyglab(folder.path(), {"run", "denim", "--steps", "1", "--set", "rows=6", "--set",
+                                                    "columns=6", "--obj", "frames", "--mtl"});
+  CHECK(outcome.code == 0);
+  CHECK(test::read_file(folder / "frames/denim.png") ==
+        test::read_file(std::string(test::source_dir) + "/textures/denim.png"));
+  const auto read = test::run(folder / "frames", {test::assimp, "export", "denim_0000.obj", "again.obj"});
+  REQUIRE_MESSAGE(read.code == 0, read.out);
+  CHECK(test::read_file(folder / "frames/again.mtl").find("map_Kd denim.png") != std::string::npos);
+  const auto alone = test::tyglab(folder.path(), {"run", "denim", "--steps", "1", "--mtl"});
+  CHECK(alone.code == 2);
+  CHECK(alone.err.find("--obj") != std::string::npos);
+}
+
 TEST_CASE("2: an output under the name that another has until it is whole, or that a frame of --obj has, is refused") {
   const test::TemporaryFolder folder;
   const auto refused = [&](std::vector<std::string> options, const char* words) {

@@ -2,15 +2,18 @@
 // there comes to the same bits as who was never stopped.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
 
 #include "core/integrators/scheme.h"
+#include "core/model/preset.h"
 #include "core/simulation.h"
 #include "tests/engines/engine_pair.h"
 #include "tests/support/devices.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/scenes.h"
 
 namespace tyglab::stop_test {
 namespace {
@@ -125,6 +128,54 @@ TEST_CASE("a step that takes many iterations asks in each of them, and tells how
     CHECK(most <= 1);
     if (method == std::string("implicit_euler"))
       CHECK(told.size() > 10);  // about one for each interior-point iteration
+  }
+}
+
+/// A stiff step of some hundred thousand particles, of which 64 rows are a small part.
+Preset large_and_stiff(Precision precision) {
+  Preset preset = test::cloth(1000, 200, "implicit_euler");
+  preset.precision = precision, preset.k_s = 1e5, preset.dt = 0.02;
+  return preset;
+}
+
+TEST_CASE("between two questions a stiff step of a large cloth does less than a pass over its springs takes") {
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    Simulation simulation(large_and_stiff(precision));
+    simulation.energy();
+    const double begun = thread_seconds();
+    simulation.energy();
+    const double pass = thread_seconds() - begun;
+    double asked = thread_seconds(), most = 0;
+    int questions = 0;
+    simulation.stop_when([&] {
+      const double now = thread_seconds();
+      most = std::max(most, now - asked), asked = now;
+      return ++questions > 400;  // in the second linear system
+    });
+    CHECK(simulation.advance(1).stopped);
+    const double end = thread_seconds() - asked;
+    CAPTURE(pass);
+    CHECK(most < pass);
+    CHECK(end < pass);
+  }
+}
+
+TEST_CASE("stopped while it takes its memory, an implicit method goes on as if it had not been") {
+  for (const double k_s : {50.0, 1e5}) {
+    Preset preset = test::cloth(40, 30, "implicit_euler");
+    preset.k_s = k_s, preset.dt = 0.02;
+    Simulation undisturbed(preset);
+    undisturbed.advance(1);
+    const State whole = undisturbed.read_raw();
+    for (int at = 1; at <= 60; ++at) {
+      CAPTURE(at);
+      Simulation simulation(preset);
+      simulation.stop_when(Alarm(at));
+      simulation.advance(1);
+      simulation.stop_when({});
+      simulation.advance(1 - int(simulation.steps()));
+      CHECK(same_bits(simulation.read_raw(), whole));
+    }
   }
 }
 

@@ -114,12 +114,12 @@ def distance(a, b):
 class Screen:
     """An X server of its own. It keeps its pixels in a file (-fbdir) in the format of xwd."""
 
-    def __init__(self, width=1600, height=1000):
+    def __init__(self, width=1600, height=1000, options=()):
         self.width, self.height = width, height
         self.folder = tempfile.TemporaryDirectory(prefix="tyglab-screen-")
         reading, writing = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp",
+            ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp", *options,
              "-noreset",  # or it would start anew, and refuse who comes then, whenever its last window closes
              "-fbdir", self.folder.name], pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             preexec_fn=end_with_parent)

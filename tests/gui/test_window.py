@@ -7,6 +7,8 @@ import subprocess
 import tempfile
 
 from cases import case, check, main, skip
+from sandbox import Sandbox
+from screen import Screen
 from xclient import XClient
 
 BLACK = (0, 0, 0)
@@ -132,6 +134,32 @@ def start_and_end(stage):
     check(report["dialog"] == "none", "who names a preset gets no start page")
     named.press_close_button()
     check(named.ended() == 0 and named.stderr() == "", f"it ends well: {named.process.returncode}, {named.stderr()}")
+
+
+@case
+def first_size(stage):
+    """the first window is larger on a display that magnifies"""
+    client = XClient(stage.screen.display)
+    client.set_dpi(105.6)
+    sandbox = stage.start("hanging", with_settings=False)
+    client.set_dpi(96)
+    client.close()
+    width, height = sandbox.report()["window"]
+    check(abs(width - 1.1 * 1440) <= 1 and abs(height - 1.1 * 860) <= 1, f"at scale 1.1 it is {width} x {height}")
+
+
+@case
+def without_glx(stage):
+    """where the X server has no GLX, the window opens through EGL"""
+    screen = Screen(options=("-extension", "GLX"))
+    try:
+        sandbox = Sandbox(stage.tyglab, screen, ["hanging"])
+        sandbox.wait(lambda r: r["t"] > 0, "the cloth to move")
+        picture = screen.picture()
+        check(len({picture.pixel(x, 400) for x in range(0, 1280, 8)}) > 5, "the window is drawn")
+        sandbox.close()
+    finally:
+        screen.close()
 
 
 @case

@@ -1,6 +1,7 @@
 // OBJ files, read back by tinyobjloader and by assimp.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <memory>
@@ -125,6 +126,7 @@ TEST_CASE("a vertex in no whole triangle has the normal (0, 0, 1)") {
   write_obj(folder / "thread.obj", thread.tears(), thread.read().x, {"Thread", 0, 0, 25});
   const std::string text = test::read_file(folder / "thread.obj");
   CHECK(text.find("\nf ") == text.npos);
+  CHECK(text.ends_with("\nl 1 2\nl 2 3\nl 3 4\nl 4 5\n"));
   for (const std::string& line : test::lines(text)) {
     if (line.starts_with("vt ")) CHECK(line.starts_with("vt 0 "));
     if (line.starts_with("vn ")) CHECK(line == "vn 0 0 1");
@@ -134,7 +136,7 @@ TEST_CASE("a vertex in no whole triangle has the normal (0, 0, 1)") {
 /// What assimp makes of an OBJ file, as the lines of a PLY file: header, vertices with normals, faces.
 struct Ply {
   std::vector<std::vector<double>> vertices;  ///< x y z nx ny nz s t
-  std::vector<std::vector<int>> faces;        ///< corners
+  std::vector<std::vector<int>> faces;        ///< a count and corners; of a line there are two
 };
 
 Ply read_with_assimp(const test::TemporaryFolder& folder, const std::filesystem::path& obj) {
@@ -161,7 +163,8 @@ TEST_CASE("assimp reads every triangle with unit normals on its front side") {
   const auto owned = cloth_with_cuts(9, 7);
   Simulation& simulation = *owned;
   write_obj(folder / "cloth.obj", simulation.tears(), simulation.read().x, {"A cloth", 0, 0, 25});
-  const Ply ply = read_with_assimp(folder, folder / "cloth.obj");
+  Ply ply = read_with_assimp(folder, folder / "cloth.obj");
+  std::erase_if(ply.faces, [](const auto& face) { return face.size() == 3; });
   CHECK(int(ply.faces.size()) == whole_triangles(simulation.tears()));
   CHECK(ply.vertices.size() >= 60);  // all but those in no whole triangle, or one for every corner
   for (const auto& face : ply.faces) {
@@ -177,6 +180,40 @@ TEST_CASE("assimp reads every triangle with unit normals on its front side") {
     }
     CHECK(glm::dot(glm::cross(corner[1] - corner[0], corner[2] - corner[0]), normals) > 0);
   }
+}
+
+TEST_CASE("threads in no whole triangle are lines, which assimp and tinyobjloader read") {
+  const test::TemporaryFolder folder;
+  // The two lowest rows of a sheet of three columns lose their outer triangles' springs: some threads stay.
+  Simulation simulation(test::quiet_cloth(4, 3));
+  simulation.apply(edit::CutSprings{{{2, 2, 0}, {3, 2, 1}, {2, 2, 1}, {3, 2, 2}}});
+  write_obj(folder / "cloth.obj", simulation.tears(), simulation.read().x, {"Torn", 0, 0, 25});
+  std::vector<std::string> threads;
+  for (const std::string& line : test::lines(test::read_file(folder / "cloth.obj")))
+    if (line.starts_with("l ")) threads.push_back(line);
+  // Rows 2 and 3 are numbered 7 8 9 and 10 11 12: what is left between them are the threads downward and along row 3.
+  CHECK(threads == std::vector<std::string>{"l 7 10", "l 8 11", "l 9 12", "l 10 11", "l 11 12"});
+  const auto reader = read_obj(folder / "cloth.obj");
+  CHECK(reader.GetShapes()[0].lines.num_line_vertices.size() == threads.size());
+  Simulation thread(test::cloth(5, 1));
+  write_obj(folder / "thread.obj", thread.tears(), thread.read().x, {"Thread", 0, 0, 25});
+  for (const auto& [name, count] : {std::pair{"cloth.obj", threads.size()}, {"thread.obj", std::size_t(4)}}) {
+    const Ply ply = read_with_assimp(folder, folder / name);
+    CHECK(std::size_t(std::count_if(ply.faces.begin(), ply.faces.end(),
+                                    [](const auto& face) { return face.size() == 3; })) == count);
+  }
+}
+
+TEST_CASE("a material with its image is read by tinyobjloader") {
+  const test::TemporaryFolder folder;
+  Simulation simulation(test::quiet_cloth(3, 3));
+  test::write_file(folder / "cloth.mtl", material_text("cloth.png"));
+  write_obj(folder / "cloth.obj", simulation.tears(), simulation.read().x, {"A cloth", 0, 0, 25, "cloth.mtl"});
+  const auto reader = read_obj(folder / "cloth.obj");
+  REQUIRE(reader.GetMaterials().size() == 1);
+  CHECK(reader.GetMaterials()[0].diffuse_texname == "cloth.png");
+  for (const int material : reader.GetShapes()[0].mesh.material_ids) CHECK(material == 0);
+  CHECK(material_text("").find("map_Kd") == std::string::npos);
 }
 
 TEST_CASE("the comments tell frame, time and frame rate, whatever the preset is called") {

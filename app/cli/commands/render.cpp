@@ -83,6 +83,8 @@ int render(const RenderOptions& options) {
     do {
       stepper.advance_to(stepper.end());
     } while (stepper.changed());
+    if (stepper.interrupted() && takes_long_to_show(simulation))
+      end_interrupted("The picture was left out, since a cloth of this size takes long to draw.");
     written = film.shoot(simulation, options.png, stepper.interrupted() ? Reach::stopped : Reach::whole);
   }
 
@@ -96,6 +98,7 @@ int render(const RenderOptions& options) {
     return exit_diverged;
   }
   if (!stepper.interrupted()) return exit_done;
+  if (takes_long_to_show(simulation)) end_interrupted("");
   std::cerr << "tyglab: Interrupted; what was written so far is complete, and no older image was replaced.\n";
   return exit_interrupted;
 }

@@ -1,5 +1,6 @@
 #include "app/cli/commands/commands.h"
 
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/base/files.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/stepping.h"
@@ -14,6 +16,7 @@
 #include "app/process/program_run.h"
 #include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
+#include "core/integrators/scheme.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
@@ -37,6 +40,7 @@ struct RunOptions {
   std::string state, values, series, ledger, obj, pc2, json;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
+  bool material = false;
   double step_limit_ms = 0;  ///< 0: none
 
   /// All but --obj, which names a folder.
@@ -49,6 +53,7 @@ struct RunOptions {
   /// An option that would do nothing is a mistake of whoever typed it. Throws UsageError.
   void check_combination() const {
     const bool rows = !series.empty() || !ledger.empty();
+    if (material && obj.empty()) throw UsageError("--mtl: writes the material of --obj; add --obj DIR");
     if (series_every && !rows)
       throw UsageError("--series-every: sets how often --series and --ledger write a row; add --series F.csv");
     if (fps && !wants_frames() && !(rows && !series_every))
@@ -86,6 +91,7 @@ class Outputs {
       series_ = std::make_unique<SeriesCsv>(options_.series, series_columns(preset.kind), preset_hash(preset));
     if (!options_.ledger.empty())
       ledger_ = std::make_unique<SeriesCsv>(options_.ledger, ledger_columns(), preset_hash(preset));
+    if (options_.material) write_material(preset);
     if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().size());
   }
 
@@ -105,10 +111,13 @@ class Outputs {
     if (options_.wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
       const VectorField<double>& x = simulation.read().x;
       if (cache_) cache_->add(x);
-      if (!options_.obj.empty())
+      if (!options_.obj.empty()) {
+        std::optional<InterruptExit> at_once;
+        if (takes_long_to_show(simulation)) at_once.emplace();
         write_obj(fs::path(options_.obj) / frame_name(scene_.source.label, frame_, plan_.count(), "obj"),
                   simulation.tears(), x,
-                  {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps()});
+                  {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps(), material_});
+      }
       ++frame_;
     }
     if ((series_ || ledger_) && step == next_row()) {
@@ -134,6 +143,10 @@ class Outputs {
       add("obj", options_.obj)["frames"] = frame_;
       if (!interrupted) warn_of_older_frames({options_.obj, scene_.source.label, "obj", plan_.count(), frame_});
     }
+    const bool slow = takes_long_to_show(simulation);
+    if (slow && interrupted) return files;
+    std::optional<InterruptExit> at_once;
+    if (slow) at_once.emplace();
     const Reach moment = interrupted ? Reach::stopped : Reach::whole;
     if (!options_.state.empty()) add("state", write_output(options_.state, state_csv(simulation), moment));
     if (!options_.values.empty()) add("values", write_output(options_.values, values_csv(simulation, nullptr), moment));
@@ -141,6 +154,20 @@ class Outputs {
   }
 
  private:
+  /// The material, and its image, beside the frames.
+  void write_material(const Preset& preset) {
+    std::string name = scene_.source.label, image;  // without what would end a name in these files
+    for (char& c : name)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';
+    if (const fs::path file = texture_file(preset.texture); !preset.texture.empty() && fs::is_regular_file(file)) {
+      constexpr std::uintmax_t most_bytes = 1 << 28;
+      image = name + file.extension().string();
+      write_atomically(fs::path(options_.obj) / image, read_input(file, "texture", most_bytes));
+    }
+    material_ = name + ".mtl";
+    write_atomically(fs::path(options_.obj) / material_, material_text(image));
+  }
+
   /// Whether an output has the name that a frame of --obj may get.
   bool is_frame(const std::string& output) const {
     const fs::path file(output);
@@ -157,6 +184,7 @@ class Outputs {
   FramePlan plan_;
   std::unique_ptr<SeriesCsv> series_, ledger_;
   std::unique_ptr<PointCache> cache_;
+  std::string material_;    ///< its file's name in the folder of --obj; empty: none
   std::int64_t frame_ = 0;  ///< frames written
   std::int64_t row_ = 0;    ///< rows written
 };
@@ -348,7 +376,8 @@ int run(const RunOptions& options) {
 
   const bool diverged = simulation.divergence().has_value();
   const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
-  const double excess_at_end = simulation.excess();
+  const bool in_haste = stepper.interrupted() && takes_long_to_show(simulation);
+  const double excess_at_end = in_haste ? 0 : simulation.excess();
   const Json report = summary(simulation, scene,
                               diverged                ? "diverged"
                               : stepper.interrupted() ? "interrupted"
@@ -361,6 +390,10 @@ int run(const RunOptions& options) {
         write_output(options.json, json_text(report), stepper.interrupted() ? Reach::stopped : Reach::whole));
 
   people(options.outputs()) << closing(report, summary_name) << std::endl;
+  if (in_haste)
+    end_interrupted(options.state.empty() && options.values.empty()
+                        ? ""
+                        : "The last state was left out, since a cloth of this size takes long to write.");
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
   if (const std::string excess = energy_in_excess(excess_at_end, simulation.preset()); !excess.empty())
@@ -403,6 +436,7 @@ void add_run_command(CLI::App& program, Action& action) {
       ->type_name("N")
       ->transform(whole_number_between(1, 1'000'000'000'000));
   add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
+  command->add_flag("--mtl", options->material, "Write the cloth's material and texture beside the meshes");
   add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
   command
       ->add_option(

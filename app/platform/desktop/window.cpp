@@ -19,7 +19,8 @@
 namespace tyglab {
 namespace {
 
-constexpr int tall_monitor = 1400;  // pixels
+constexpr int tall_monitor = 1400;           // pixels
+constexpr glm::ivec2 first_size{1440, 860};  // at scale 1
 
 std::string glfw_problem() {
   const char* text = nullptr;
@@ -164,12 +165,26 @@ Window::Window(int width, int height, const Settings& settings, InputQueue& queu
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   const bool given = width > 0 && height > 0;
-  const glm::ivec2 size = given ? glm::ivec2(width, height) : fit_to_screen(settings.width, settings.height);
-  GLFWwindow* const window = parts_->window = glfwCreateWindow(size.x, size.y, "Tyglab", nullptr, nullptr);
+  const bool first = !given && (settings.width == 0 || settings.height == 0);
+  const glm::ivec2 size = given   ? glm::ivec2(width, height)
+                          : first ? fit_to_screen(first_size.x, first_size.y)
+                                  : fit_to_screen(settings.width, settings.height);
+  GLFWwindow*& window = parts_->window;
+  window = glfwCreateWindow(size.x, size.y, "Tyglab", nullptr, nullptr);
   if (window == nullptr) {
     const std::string problem = glfw_problem();
-    glfwTerminate();
-    throw GraphicsError("A window with OpenGL 3.3 could not be opened (" + problem + "). " + driver_advice());
+    // A remote X server may have no GLX.
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+    window = glfwCreateWindow(size.x, size.y, "Tyglab", nullptr, nullptr);
+    if (window == nullptr) {
+      glfwTerminate();
+      throw GraphicsError("A window with OpenGL 3.3 could not be opened (" + problem + "). " + driver_advice());
+    }
+  }
+  if (first) {
+    const glm::ivec2 scaled = glm::vec2(first_size) * content_scale();
+    const glm::ivec2 fitting = fit_to_screen(scaled.x, scaled.y);
+    glfwSetWindowSize(window, fitting.x, fitting.y);
   }
   glfwSetWindowSizeLimits(window, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
   if (!given && settings.x >= 0 && on_a_monitor(settings.x, settings.y))

@@ -18,7 +18,8 @@
 namespace tyglab {
 
 const char* driver_advice() {
-  return "Install a driver (on Debian, libgl1-mesa-dri draws on the CPU).";
+  return "Install a driver (on Debian, libgl1-mesa-dri draws on the CPU). Over a remote connection that offers no "
+         "OpenGL, use tyglab render and tyglab run, which need no window, or the page in a browser (app/run web).";
 }
 
 const char* display_advice() {

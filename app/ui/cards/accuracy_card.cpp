@@ -156,7 +156,7 @@ std::string accuracy_words(const AccuracyStudy& study) {
            " s of this cloth: too short to measure the error at dt = " + short_number(study.of.dt) + " s.";
   if (!std::isfinite(now.error_rms_m))
     return "With the present settings, " + method + " diverges" + over + "." + short_time;
-  const double floor = 10 * study.reference.agreement_rms_m;
+  const double floor = reference_margin * study.reference.agreement_rms_m;
   const std::string error = now.resolved ? short_number(rounded(now.error_rms_m, 2))
                                          : "below " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
   return method + "'s error is " + error + " m (rms)" + over + "; it takes " + short_number(rounded(now.cost, 2)) +

@@ -13,16 +13,22 @@
 namespace tyglab {
 namespace {
 
-std::string series(const Ui& ui, const Series& of, const std::vector<std::string>& names) {
-  return of.csv(names, "tyglab series, t in s, preset hash " + preset_hash(ui.session.preset()));
+std::string series(const Ui& ui, const Series& of, const std::vector<SeriesColumn>& columns,
+                   const std::string& about = {}) {
+  return of.csv(columns, about + "preset hash " + preset_hash(ui.session.preset()));
 }
 
 std::string forces(Ui& ui) {
-  return series(ui, ui.session.recorded.forces, force_column_names());
+  const Source source = force_source(ui.session);
+  const auto site = ui.session.picked.value_or(Pins::Site{});
+  const std::string of = source == Source::particle
+                             ? "particle " + std::to_string(site.i) + " " + std::to_string(site.j)
+                             : "all particles";
+  return series(ui, ui.session.recorded.forces, force_columns(source), "magnitudes of the forces on " + of + ", ");
 }
 
 std::string height(Ui& ui) {
-  return series(ui, ui.session.recorded.height, height_column_names());
+  return series(ui, ui.session.recorded.height, height_columns());
 }
 
 std::string map(Ui& ui) {
@@ -33,15 +39,15 @@ std::string map(Ui& ui) {
 /// Cloths that are not there keep their empty columns.
 std::string copies(Ui& ui) {
   const bool energy = ui.session.copies.plotted == Copies::Quantity::energy;
-  std::vector<std::string> names;
+  std::vector<SeriesColumn> columns;
   for (int n = Copies::original; n < int(Lockstep::most); ++n) {
     const bool there = n < int(ui.session.copies.lockstep.size());
     std::string name = there ? settings_of_cloth(ui.session, n) : "copy " + std::to_string(n + 1);
     for (char& letter : name)
       if (letter == ',') letter = ';';  // it stands in a comma's file
-    names.push_back(name + (energy ? " [J]" : " [m]"));
+    columns.push_back({name, energy ? "J" : "m"});
   }
-  return series(ui, energy ? ui.session.copies.energy : ui.session.copies.distance, names);
+  return series(ui, energy ? ui.session.copies.energy : ui.session.copies.distance, columns);
 }
 
 std::string convergence(Ui& ui) {
@@ -79,8 +85,8 @@ void map_picture(Ui& ui, const std::filesystem::path& file) {
   write_png(file, picture_of({page}, 1));
 }
 
-constexpr const char* rows_of_frames =
-    "One row per drawn frame in the plot: t and a column for each curve, units in the header.";
+constexpr const char* rows_of_samples =
+    "One row per sample in the plot: t and a column for each curve, units in the header.";
 
 std::string export_no_weight(const Ui& ui) {
   return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
@@ -107,9 +113,11 @@ std::vector<CommandRow> export_rows() {
     return rows.emplace_back(CommandRow{id, name, "", {}, "", also, nullptr, why_not, writes});
   };
   add("export_forces", "Export forces as CSV…", "write plot series",
-      {"Export forces as CSV", rows_of_frames, "forces.csv", text_file<forces>});
+      {"Export forces as CSV",
+       "One row per sample in the plot: t and the magnitude of each force, units in the header.", "forces.csv",
+       text_file<forces>});
   add("export_height", "Export height as CSV…", "write plot series weight mass",
-      {"Export height as CSV", rows_of_frames, "height.csv", text_file<height>}, export_no_weight);
+      {"Export height as CSV", rows_of_samples, "height.csv", text_file<height>}, export_no_weight);
   add("export_map", "Export map as CSV…", "write stability",
       {"Export map of stiffness and dt as CSV",
        "One row per measured cell: stiffness, dt, the short run's result, the worst-case limit of dt.", "map.csv",
@@ -118,7 +126,7 @@ std::vector<CommandRow> export_rows() {
       {"Export map of stiffness and dt as PNG", "An image of the map as far as it has been measured.", "map.png",
        map_picture});
   add("export_copies", "Export distances of the copies as CSV…", "write lockstep",
-      {"Export the copies' plot as CSV", rows_of_frames, "copies.csv", text_file<copies>}, export_no_copies);
+      {"Export the copies' plot as CSV", rows_of_samples, "copies.csv", text_file<copies>}, export_no_copies);
   add("export_values", "Export every particle's values as CSV…", "write tension strain speed energy",
       {"Export every particle's values as CSV",
        "One row per particle as it is now, one column for each quantity that can color the cloth.", "values.csv",

@@ -28,14 +28,19 @@ void ImplicitSolver<R>::resize() {
   rows_ = rows, stride_ = stride;  // now that all of the memory is there
 }
 
-/// What only Newton's method needs.
+/// What only Newton's method needs. Returns false where it was stopped on the way.
 template <class R>
-void ImplicitSolver<R>::resize_newton() {
+bool ImplicitSolver<R>::resize_newton() {
   const std::size_t blocks = std::size_t(rows_ + 2) * 6 * stride_;
-  if (blocks_.size() == blocks) return;
-  for (Field* field : {&before_, &step_, &direction_, &product_, &preconditioned_}) field->resize(rows_ + 3, stride_);
+  if (blocks_.size() == blocks) return true;
+  for (Field* field : {&before_, &step_, &direction_, &product_, &preconditioned_}) {
+    if (stops()) return false;
+    field->resize(rows_ + 3, stride_);
+  }
   coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), R(0));
+  if (stops()) return false;
   blocks_.assign(blocks, R(0));  // the last, which says that all of the memory is there
+  return true;
 }
 
 template <class R>
@@ -91,7 +96,7 @@ void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accel
 
 template <class R>
 Balance ImplicitSolver<R>::solve_by_newton() {
-  resize_newton();
+  if (!resize_newton()) return {};
   return tyglab::solve(
       *this, {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt}, counts_);
 }
@@ -224,7 +229,7 @@ void ImplicitSolver<R>::linearize_row(int d, int i) {
 /// The inverse of each particle's block; 0 for a fixed one, which takes no step.
 template <class R>
 void ImplicitSolver<R>::invert_blocks() {
-  for (int i = 0; i < rows_; ++i) {
+  for (int i = 0; i < rows_ && !stops(); ++i) {
     R* b = block(i);
     for (int j = 0; j < cloth().lattice.columns; ++j) {
       R *xx = b + j, *yy = xx + stride_, *zz = yy + stride_, *yz = zz + stride_, *zx = yz + stride_, *xy = zx + stride_;

@@ -86,7 +86,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Field& position() { return task_.cloth->vector(task_.position); }
   Field& velocity() { return task_.cloth->vector(task_.velocity); }
   void resize();
-  void resize_newton();
+  bool resize_newton();
   Balance alternate(bool changed);
   void note_balance(const Balance& balance);
   /// Whether this part of the stage's time is.

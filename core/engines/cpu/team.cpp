@@ -7,6 +7,9 @@
 #if defined(__x86_64__) || defined(__i386__)
 #include <immintrin.h>
 #endif
+#if !defined(_WIN32) && !defined(__EMSCRIPTEN__)
+#include <pthread.h>
+#endif
 
 namespace tyglab::cpu {
 namespace {
@@ -19,6 +22,16 @@ void pause() {
 #if defined(__x86_64__) || defined(__i386__)
   _mm_pause();
 #endif
+}
+
+/// How many forks this process is away from the program's start. A child has none of its parent's threads.
+int forks() {
+  static std::atomic<int> count{0};
+#if !defined(_WIN32) && !defined(__EMSCRIPTEN__)
+  static const int registered = pthread_atfork(nullptr, nullptr, [] { ++count; });
+  static_cast<void>(registered);
+#endif
+  return count.load(std::memory_order_relaxed);
 }
 
 /// Returns once `value` is no longer `old`.
@@ -45,6 +58,12 @@ void Progress::wait_for(int rows) const {
 // By way of the other constructor, so that threads which have been started are ended where memory fails.
 Team::Team(int most) : Team() {
   assert(most >= 1);
+  hire(most);
+  size_ = capacity();
+}
+
+void Team::hire(int most) {
+  forks_ = forks();
   starts_ = std::vector<Start>(std::size_t(most) - 1);
   threads_.reserve(starts_.size());
   try {
@@ -52,10 +71,19 @@ Team::Team(int most) : Team() {
   } catch (const std::system_error&) {
     // The system gives no more threads: fewer make the same bits.
   }
-  size_ = capacity();
+}
+
+/// They can be neither used nor joined: their memory is given up.
+void Team::forsake_parents() {
+  if (!threads_.empty()) new std::vector<std::thread>(std::move(threads_));  // NOLINT: leaked on purpose
+  threads_.clear();
 }
 
 Team::~Team() {
+  if (forks_ != forks()) {
+    forsake_parents();
+    return;
+  }
   closing_ = true;
   for (int n = 1; n < capacity(); ++n) start(n);
   for (std::thread& thread : threads_) thread.join();
@@ -90,6 +118,14 @@ void Team::work(int number) noexcept {
 }
 
 void Team::run(const Call& call) {
+  if (forks_ != forks()) {
+    const int most = capacity();
+    forsake_parents();
+    hire(most);
+    if (capacity() < size_)
+      throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again),
+                              "The system gives this process no threads; use threads = 1");
+  }
   call_ = call;
   working_ = size_ - 1;
   const int turn = finished_.load();

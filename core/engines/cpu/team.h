@@ -73,6 +73,8 @@ class alignas(64) Team {
   void serve(int number);
   void start(int number);
   void work(int number) noexcept;
+  void hire(int most);
+  void forsake_parents();
 
   int size_ = 1;
   Call call_;
@@ -83,6 +85,7 @@ class alignas(64) Team {
   std::atomic<bool> closing_{false};
   std::atomic<bool> failed_{false};  ///< in this run
   std::exception_ptr fault_;         ///< what was thrown first
+  int forks_ = 0;                    ///< of the process in which the threads run
   std::vector<Start> starts_;        ///< of all but the caller
   std::vector<std::thread> threads_;
 };

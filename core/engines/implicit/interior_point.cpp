@@ -28,27 +28,49 @@ double sum(const std::vector<double>& parts) {
   return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
+constexpr int rows_between_asking = 64;  // whether to stop
 constexpr int rows_of_product = 2;  // above, which leave parts of a row's product in it, and below, of which it is made
 
 }  // namespace
 
 template <class R>
-void InteriorPoint<R>::resize(const Lattice& lattice) {
-  if (lattice_ == lattice) return;
+bool InteriorPoint<R>::resize(const Lattice& lattice, const std::function<bool()>& stops) {
+  if (lattice_ == lattice) return true;
+  lattice_ = {0, 0};  // until all of the memory is there
   const int rows = lattice.rows, fast = simd::row_stride<R>(lattice.columns);
   stride_ = simd::row_stride<double>(lattice.columns);
-  for (Field* field : {&c_, &y_, &x_, &best_, &forces_, &right_, &moved_}) field->resize(rows + 3, stride_);
+  // A page of new memory takes longer than the numbers on it.
+  for (Field* field : {&c_, &y_, &x_, &best_, &forces_, &right_, &moved_}) {
+    if (stops()) return false;
+    field->resize(rows + 3, stride_);
+  }
   const std::size_t stretch = std::size_t(rows) * stretch_directions * stride_ + simd::widest_vector;
-  for (Array<double>* springs : {&tension_, &slack_}) springs->assign(stretch, 1.0);
-  for (Array<double>* springs : {&d_tension_, &d_slack_}) springs->assign(stretch, 0.0);
+  for (Array<double>* springs : {&tension_, &slack_, &d_tension_, &d_slack_}) {
+    if (stops()) return false;
+    springs->assign(stretch, springs == &tension_ || springs == &slack_ ? 1.0 : 0.0);
+  }
   free_.assign(std::size_t(rows) * stride_, 0.0);
-  for (RowField<R>* field : {&step_, &r_, &p_}) field->resize(rows + 3, fast);
+  for (RowField<R>* field : {&step_, &r_, &p_}) {
+    if (stops()) return false;
+    field->resize(rows + 3, fast);
+  }
   for (std::vector<double>* sums : {&right_squares_, &left_squares_, &along_, &fall_})
     sums->assign(std::size_t(rows), 0);
   products_.clear();
   coefficients_.assign(std::size_t(rows) * coefficient_pitch(fast) + simd::widest_vector, R(0));
-  multigrid_.resize(lattice, fast);
+  if (stops() || !multigrid_.resize(lattice, fast, stops)) return false;
   lattice_ = lattice;
+  return true;
+}
+
+/// Calls work(i) for every row, until it is to stop.
+template <class R>
+template <class Work>
+void InteriorPoint<R>::for_rows(const Work& work) {
+  for (int i = 0; i < lattice_.rows; ++i) {
+    if (i % rows_between_asking == 0 && task_->stops()) return;
+    work(i);
+  }
 }
 
 template <class R>
@@ -104,16 +126,17 @@ template <class R>
 void InteriorPoint<R>::begin() {
   find_whole_springs();
   size_ = 0;
-  for (int i = 0; i < lattice_.rows; ++i)
+  for_rows([&](int i) {
     for (int j = 0; j < lattice_.columns; ++j) {
       const std::size_t p = std::size_t(i) * lattice_.columns + j;
       free_[std::size_t(i) * stride_ + j] = task_->fixed.empty() || !task_->fixed[p];
       for (int c = 0; c < 3; ++c) size_ = std::max(size_, std::abs(x_.row(i, c)[j]));
     }
+  });
   // About a hundredth of a spring's length under a third of the tension of a row of all particles.
   const double weight = std::max(task_->gravity, 1e-6 * task_->constants.L) * std::sqrt(double(lattice_.size()));
   const double mu = 0.3 * weight * 0.01 * task_->constants.L;
-  for (int i = 0; i < lattice_.rows; ++i) begin_tensions(row(i), mu);
+  for_rows([&](int i) { begin_tensions(row(i), mu); });
 }
 
 template <class R>
@@ -126,14 +149,14 @@ double InteriorPoint<R>::linearize() {
   double products = 0;
   residual_ = 0, force_ = task_->gravity;
   const std::ptrdiff_t fast = fast_stride();
-  for (int i = 0; i < lattice_.rows; ++i) {
+  for_rows([&](int i) {
     const BarrierSums sums = linearize_row<R>(row(i), forces_.row(i), right_.row(i),
                                               coefficients_.data() + i * coefficient_pitch(fast), fast);
     products += sums.products, force_ = std::max(force_, sums.force);
     const double left = finish_row(x_.row(i), y_.row(i), free_.data() + std::ptrdiff_t(i) * stride_, forces_.row(i),
                                    right_.row(i), stride_, lattice_.columns);
     residual_ = left <= residual_ ? residual_ : left;  // which a number that is none becomes
-  }
+  });
   ++counts_->force_evaluations;
   return products;
 }
@@ -146,12 +169,14 @@ double InteriorPoint<R>::allowed() const {
   return std::max(task_->tolerance * force_, digits);
 }
 
-/// Calls work(number) on as many threads as pay now, each of which has its rows. Returns how long that took, s.
+/// Calls work(number) on as many threads as pay now, each of which has its rows, unless it is to stop. Returns how long
+/// that took, s.
 template <class R>
 template <class Work>
 double InteriorPoint<R>::together(const Work& work) {
   const int size = task_->crew.size();
   multigrid_.share(task_->crew, size, task_->stops);
+  if (task_->stops()) return 0;
   const int threads = multigrid_.threads();
   if (int(products_.size()) != threads) {
     std::vector<Products> all(std::size_t(threads), Products{});
@@ -269,14 +294,15 @@ bool InteriorPoint<R>::solve_linear(double tolerance, bool warm) {
 template <class R>
 BarrierStep InteriorPoint<R>::find_step(bool corrects, double mu) {
   const int columns = lattice_.columns;
-  for (int i = 0; i < lattice_.rows; ++i)
+  for_rows([&](int i) {
     for (int c = 0; c < 3; ++c) std::copy_n(step_.row(i, c), columns, moved_.row(i, c));
+  });
   BarrierStep all{};
-  for (int i = 0; i < lattice_.rows; ++i) {
+  for_rows([&](int i) {
     const BarrierStep one = step_row(row(i), moved_.row(i), corrects, mu);
     all.tension = std::max(all.tension, one.tension), all.slack = std::max(all.slack, one.slack);
     all.with_slack += one.with_slack, all.with_tension += one.with_tension, all.both += one.both;
-  }
+  });
   return all;
 }
 
@@ -300,24 +326,25 @@ Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   const double corrector = corrector_tolerance(lattice_);
   for (int n = 0;; ++n) {
     const double products = linearize(), mu = products / std::max(springs_, 1.0);
+    if (task.stops()) return {};
     if (residual_ < least) least = residual_, best_balance_ = {false, residual_ / force_}, best_ = x_;
     if (n == 0) first = residual_;
     if (residual_ <= allowed()) return {true, residual_ / force_};
     if (n == most_iterations || !std::isfinite(residual_) || (n > 0 && task.out_of_time(best_balance_.residual))) break;
     task.progress(std::clamp(std::log(first / least) / std::log(first / allowed()), double(n) / most_iterations, 1.0));
-    multigrid_.prepare({coefficients_.data(), 1, task.fixed});
+    multigrid_.prepare({coefficients_.data(), 1, task.fixed}, task.stops);
     ++counts.newton;
     solve_linear(predictor_tolerance, false);
-    if (task.stops()) return {};
     const BarrierStep predicted = find_step(false, 0);
+    if (task.stops()) return {};
     const double p = std::min(1.0, 1 / predicted.slack), d = std::min(1.0, 1 / predicted.tension);
     const double left = products + p * predicted.with_slack + d * predicted.with_tension + p * d * predicted.both;
     const double ratio = std::clamp(left / products, 0.0, 1.0);
     const double goal = std::max(ratio * ratio, least_centering) * mu;
-    for (int i = 0; i < lattice_.rows; ++i) correct_row(row(i), goal, right_.row(i));
+    for_rows([&](int i) { correct_row(row(i), goal, right_.row(i)); });
     solve_linear(corrector, true);
-    if (task.stops()) return {};
     const BarrierStep step = find_step(true, goal);
+    if (task.stops()) return {};
     advance(part_of(step.slack), part_of(step.tension));
   }
   x_ = best_;

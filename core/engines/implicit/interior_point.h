@@ -45,8 +45,8 @@ class InteriorPoint {
     std::function<void(double part)> progress;
     Crew& crew;
   };
-  /// Takes the memory for a lattice.
-  void resize(const Lattice& lattice);
+  /// Takes the memory for a lattice. Returns false where it was stopped on the way.
+  bool resize(const Lattice& lattice, const std::function<bool()>& stops);
   /// To be written before solve(): c_x, y, and where to begin with fixed particles at their places, each array as in
   /// row_field.h; the last is then the best that was found.
   Field& c() { return c_; }
@@ -62,10 +62,12 @@ class InteriorPoint {
     int first = 0;  ///< row of the lattice that is row 0 of q
     RowField<R> q;
   };
+  template <class Work>
+  void for_rows(const Work& work);
   void begin();
   void find_whole_springs();
   BarrierRow row(int i);
-  /// The model's residual and the linear system at the present x. Returns Σ tension · slack.
+  /// The model's residual and the linear system at the present x, unless it stops. Returns Σ tension · slack.
   double linearize();
   bool solve_linear(double tolerance, bool warm);
   template <class Work>

@@ -20,13 +20,14 @@ int coarser(int n) {
 constexpr double largest_eigenvalue(bool finest) {
   return finest ? 2 : 8.0 / 3;
 }
+constexpr int rows_between_asking = 64;             // whether to stop
 constexpr double middle = 0.55, half_width = 0.45;  // of that interval, in parts of its upper end
 
 }  // namespace
 
 template <class R>
-void Multigrid<R>::resize(const Lattice& lattice, int stride) {
-  if (!levels_.empty() && levels_[0].rows == lattice.rows && levels_[0].columns == lattice.columns) return;
+bool Multigrid<R>::resize(const Lattice& lattice, int stride, const std::function<bool()>& stops) {
+  if (!levels_.empty() && levels_[0].rows == lattice.rows && levels_[0].columns == lattice.columns) return true;
   std::vector<Level> levels;
   for (int rows = lattice.rows, columns = lattice.columns;;) {
     Level& level = levels.emplace_back();
@@ -35,7 +36,9 @@ void Multigrid<R>::resize(const Lattice& lattice, int stride) {
     level.stride = finest ? stride : simd::row_stride<R>(columns + 2);
     level.pitch = operator_pitch(level.stride);
     if (!finest) level.blocks.assign(std::size_t(level.rows) * level.pitch + 4 * Level::lead, R(0));
+    if (stops()) return false;
     level.inverse.assign(std::size_t(rows + 2) * 6 * level.stride + 2 * Level::lead, R(0));
+    if (stops()) return false;
     level.x.resize(rows + 3, level.stride);
     if (!finest) level.given.resize(rows + 3, level.stride);
     if (coarser(rows) == rows && coarser(columns) == columns) break;
@@ -47,6 +50,7 @@ void Multigrid<R>::resize(const Lattice& lattice, int stride) {
   free_stride_ = work_stride_;
   free_.assign(std::size_t(lattice.rows + 1) * free_stride_ + 2 * Level::lead, R(0));
   levels_ = std::move(levels);
+  return true;
 }
 
 template <class R>
@@ -70,7 +74,10 @@ void Multigrid<R>::share(Crew& crew, int size, const std::function<bool()>& stop
   const std::size_t rows = 2 * std::size_t(size);
   if (rows_.size() == rows && !levels_[0].parts.empty()) return;
   rows_.clear();  // they are there again once all of the memory is
-  for (Level& level : levels_) share_level(level, size);
+  for (Level& level : levels_) {
+    if (stops()) return;
+    share_level(level, size);
+  }
   rows_.assign(rows, Array<R>(std::size_t(3 * work_stride_ + 8 * Level::lead), R(0)));
 }
 
@@ -89,16 +96,16 @@ std::size_t Multigrid<R>::bytes() const {
 }
 
 template <class R>
-void Multigrid<R>::prepare(const SpringMatrix<R>& matrix) {
+void Multigrid<R>::prepare(const SpringMatrix<R>& matrix, const std::function<bool()>& stops) {
   matrix_ = matrix;
-  prepare_finest();
-  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) coarsen(l);
-  if (levels_.size() > 1) invert_coarsest();
+  prepare_finest(stops);
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) coarsen(l, stops);
+  if (levels_.size() > 1 && !stops()) invert_coarsest();
 }
 
 /// What is fixed, and the blocks on the diagonal.
 template <class R>
-void Multigrid<R>::prepare_finest() {
+void Multigrid<R>::prepare_finest(const std::function<bool()>& stops) {
   Level& at = levels_[0];
   std::fill(at.inverse.begin(), at.inverse.end(), R(0));
   for (int i = 0; i < at.rows; ++i) {
@@ -108,6 +115,7 @@ void Multigrid<R>::prepare_finest() {
     for (int c = 0; c < 3; ++c) std::fill_n(at.inverse_row(i) + c * at.stride, at.columns, R(matrix_.m));
   }
   for (int i = 0; i < at.rows; ++i) {
+    if (i % rows_between_asking == 0 && stops()) return;
     R* blocks = at.inverse_row(i);
     diagonal_row(matrix_.coefficients + i * coefficient_pitch(at.stride), blocks, at.stride, at.columns);
     const R* free = free_.data() + std::ptrdiff_t(i) * free_stride_;
@@ -147,12 +155,13 @@ const R* Multigrid<R>::next_coarse_columns(std::size_t level, int i) {
 }
 
 template <class R>
-void Multigrid<R>::coarsen(std::size_t from) {
+void Multigrid<R>::coarsen(std::size_t from, const std::function<bool()>& stops) {
   const Level& at = levels_[from];
   Level& next = levels_[from + 1];
   const R* none = zeros_.data() + Level::lead;
   const R* rows[3] = {none, none, none};  // 2I - 1, 2I, 2I + 1
   for (int I = 0, i = 0; I < next.rows; ++I) {
+    if (I % (rows_between_asking / 2) == 0 && stops()) return;
     const auto following = [&] { return i < at.rows ? next_coarse_columns(from, i++) : none; };
     if (next.rows == at.rows) {
       std::copy_n(following(), next.pitch, next.block_row(I));
@@ -260,7 +269,7 @@ RowPass(RowRange, Work) -> RowPass<Work>;
 template <class R>
 template <class... Passes>
 void Multigrid<R>::follow_each_other(int number, RowRange rows, const Passes&... passes) {
-  constexpr int behind = 2, rows_between_asking = 64;
+  constexpr int behind = 2;
   for (int i = rows.begin; i < rows.end + behind * int(sizeof...(passes) - 1); ++i) {
     if ((i - rows.begin) % rows_between_asking == 0 && stops(number)) return;
     int row = i;

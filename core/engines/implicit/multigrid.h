@@ -36,18 +36,19 @@ template <class R>
 class Multigrid {
  public:
   using Field = RowField<R>;
-  /// Takes the memory for a lattice whose rows have that stride.
-  void resize(const Lattice& lattice, int stride);
+  /// Takes the memory for a lattice whose rows have that stride. Returns false where it was stopped on the way.
+  bool resize(const Lattice& lattice, int stride, const std::function<bool()>& stops);
   /// Who computes from now on: `size` threads, where there are rows enough for them, all of the crew or one. `stops` is
-  /// asked on the way, by the first of them; where it says yes results may be anything. Both must stay where they are.
+  /// asked on the way, by the first of them; where it says yes results may be anything, and nothing may be computed
+  /// before the next share(). Both must stay where they are.
   void share(Crew& crew, int size, const std::function<bool()>& stops);
   /// The fewest rows that `size` threads share.
   static constexpr int shared_rows(int size) { return size * least_rows; }
   /// All of the crew, or one, and the rows of each.
   int threads() const { return int(levels_[0].parts.size()); }
   RowRange rows_of(int number) const { return levels_[0].parts[std::size_t(number)].own; }
-  /// Takes a matrix, which must stay where it is.
-  void prepare(const SpringMatrix<R>& matrix);
+  /// Takes a matrix, which must stay where it is, unless it stops.
+  void prepare(const SpringMatrix<R>& matrix, const std::function<bool()>& stops);
   /// Computes B r, where B is symmetric and near A⁻¹; to be called by all threads. Of what it returns each may read its
   /// own rows.
   const Field& precondition(const Field& r, int number);
@@ -87,8 +88,8 @@ class Multigrid {
   };
   static constexpr int halo = 4;               ///< rows beside a thread's own, two for each product in a phase
   static constexpr int least_rows = 8 * halo;  ///< of a thread, on a level that several share
-  void prepare_finest();
-  void coarsen(std::size_t from);
+  void prepare_finest(const std::function<bool()>& stops);
+  void coarsen(std::size_t from, const std::function<bool()>& stops);
   const R* next_coarse_columns(std::size_t level, int i);
   void build_nine_point_row(int i);
   void invert_coarsest();

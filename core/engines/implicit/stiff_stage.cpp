@@ -40,12 +40,15 @@ bool is_fixed(const StiffTask<R>& task, int i, int j) {
   return !task.fixed.empty() && task.fixed[std::size_t(i) * task.lattice.columns + j] != 0;
 }
 
-/// Calls what(i, j, c, n) for all components, n their place in the engine's arrays.
+/// Calls what(i, j, c, n) for all components, n their place in the engine's arrays. Returns false where it was stopped.
 template <class R, class What>
-void for_each(const StiffTask<R>& task, const What& what) {
-  for (int i = 0; i < task.lattice.rows; ++i)
+bool for_each(const StiffTask<R>& task, const What& what) {
+  for (int i = 0; i < task.lattice.rows; ++i) {
+    if (i % 64 == 0 && task.stops()) return false;
     for (int c = 0; c < 3; ++c)
       for (int j = 0; j < task.lattice.columns; ++j) what(i, j, c, (3 * i + c) * task.stride + j);
+  }
+  return true;
 }
 
 }  // namespace
@@ -54,14 +57,15 @@ template <class R, class S>
 Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& task, SolveCounts& counts) {
   const Preset& p = task.preset;
   const double h = task.h, scale = h * h / p.m;
-  solver.resize(task.lattice);
-  for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
+  if (!solver.resize(task.lattice, task.stops)) return {};
+  const bool begun = for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
     const bool fixed = is_fixed(task, i, j);
     const double from = double(task.c_x[n]), end = from + h * double(task.c_v[n]);
     solver.c().row(i, c)[j] = from;
     solver.y().row(i, c)[j] = end - (c == 1 && !fixed ? h * h * p.g : 0);
     solver.x().row(i, c)[j] = fixed ? end : double(task.x[n]);
   });
+  if (!begun) return {};
   typename InteriorPoint<S>::Task inner{.constants = {p.k_s * scale, p.k_b * scale, p.k_d * h / p.m, p.L},
                                         .gravity = h * h * p.g,
                                         .tolerance = task.tolerance,

@@ -1,5 +1,5 @@
 // Loads the program with its data, shows how far that is, and starts it as the page's address says:
-//   #hanging&k_s=300                      an experiment's constants
+//   #hanging&k_s=100                      an experiment's constants
 //   ?embed&lab=03_stiffness               in a course's page: without what was kept, with a button that opens it whole
 //   ?embed&preset=flag&panels=0           likewise, the cloth alone
 const canvas = document.getElementById('canvas');
