@@ -185,6 +185,38 @@ TEST_CASE("what a fixed number of passes leaves of implicit Euler's equations is
     }
 }
 
+TEST_CASE("where nothing acts nothing is left over, and every residual has a scale") {
+  for (const char* method : {"implicit_euler", "implicit_midpoint", "tr_bdf2", "projective_dynamics", "vbd"})
+    for (const Precision precision : {Precision::float_, Precision::double_})
+      for (const double k_s : {50.0, 1e5}) {
+        CAPTURE(std::string(method));
+        CAPTURE(int(precision));
+        CAPTURE(k_s);
+        Preset preset = test::cloth(2, 1, method);
+        preset.precision = precision, preset.k_s = k_s, preset.g = 0;
+        for (const int columns : {1, 7}) {
+          preset.columns = columns;
+          Simulation simulation(preset);
+          simulation.advance(4);
+          CHECK(simulation.engine().solves().unconverged == 0);
+          CHECK(simulation.engine().solves().worst_residual == 0);
+        }
+        // Weightless and slack, with damping alone; and falling upward.
+        preset.rows = 6, preset.L = 0.04, preset.k_b = 0, preset.initial_stretch = 0.5;
+        preset.k_d = std::string(method) == "vbd" ? 0.02 : 10;  // the more, the more passes it needs
+        preset.pins.mode = Pins::Mode::none, preset.iterations = 100;
+        for (const double g : {0.0, -9.82}) {
+          CAPTURE(g);
+          preset.g = g;
+          Simulation simulation(preset);
+          test::load(simulation, test::crumpled(preset, 3, 0.1, 0.01));
+          simulation.advance(4);
+          CHECK(simulation.engine().solves().unconverged == 0);
+          CHECK(std::isfinite(simulation.engine().solves().worst_residual));
+        }
+      }
+}
+
 TEST_CASE("stiff steps end with the same bits on any number of threads, on a body and with tears") {
   Preset preset = stiff_cloth(48, 1e4, "implicit_euler");
   preset.pins.mode = Pins::Mode::top_corners, preset.F_max = 2;

@@ -64,6 +64,7 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
   });
   typename InteriorPoint<S>::Task inner{.constants = {p.k_s * scale, p.k_b * scale, p.k_d * h / p.m, p.L},
                                         .gravity = h * h * p.g,
+                                        .weight = weight_scale(p.g, h),
                                         .tolerance = task.tolerance,
                                         .tears = &task.tears,
                                         .fixed = task.fixed,

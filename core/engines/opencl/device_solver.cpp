@@ -111,11 +111,14 @@ Balance DeviceSolver<R>::solve_stiff() {
 
 template <class R>
 Balance DeviceSolver<R>::balance() {
-  const cl_mem x = state_.vector(task_.position), residual = residual_.get();
-  R *const x_rows = state_.map(x, CL_MAP_READ), *const residual_rows = state_.map(residual, CL_MAP_READ);
-  const Balance balance = balance_of(
-      StageView<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, x_rows, residual_rows, state_.stride()});
+  const cl_mem x = state_.vector(task_.position), residual = residual_.get(), c_v = start_v_.get(),
+               v = away_ ? state_.other(task_.velocity) : state_.vector(task_.velocity);
+  R *const x_rows = state_.map(x, CL_MAP_READ), *const residual_rows = state_.map(residual, CL_MAP_READ),
+           *const v_rows = state_.map(v, CL_MAP_READ), *const c_v_rows = state_.map(c_v, CL_MAP_READ);
+  const Balance balance = balance_of(StageView<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, x_rows, v_rows,
+                                                  c_v_rows, residual_rows, state_.stride()});
   state_.unmap(x, x_rows), state_.unmap(residual, residual_rows);
+  state_.unmap(v, v_rows), state_.unmap(c_v, c_v_rows);
   return balance;
 }
 
