@@ -177,8 +177,9 @@ py::object ledger(Motion& motion) {
 }
 
 py::object solves(const Motion& motion) {
-  const SolveCounts counts = motion.at_rest().engine().solves();
-  if (counts.newton == 0) return py::none();
+  const Simulation& simulation = motion.at_rest();
+  if (!solves_equations(scheme(simulation.preset().integrator))) return py::none();
+  const SolveCounts counts = simulation.engine().solves();
   py::dict dict;
   dict["newton_steps"] = counts.newton, dict["linear_steps"] = counts.linear;
   dict["force_evaluations"] = counts.force_evaluations, dict["unconverged"] = counts.unconverged;

@@ -139,6 +139,10 @@ inline bool projects(const Scheme& scheme) {
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;
 }
+/// Whether a step solves equations of any kind (SolveCounts).
+inline bool solves_equations(const Scheme& scheme) {
+  return is_implicit(scheme) || solves_damping(scheme);
+}
 /// Whether `iterations` bounds what a step does.
 inline bool iterates(const Scheme& scheme) {
   return is_implicit(scheme) || projects(scheme);
