@@ -51,7 +51,8 @@ Balance judge(const StageForces& forces, double tolerance) {
   if (!std::isfinite(left)) return {false, std::numeric_limits<double>::infinity()};
   if (weightless && std::max(left, largest) <= digits) return {true, 0};  // nothing acts
   const double scale = std::max(largest, weight);
-  return {left <= std::max(tolerance * scale, std::min(digits, most_excused * scale)), left / scale};
+  const bool solved = left <= std::max(tolerance * scale, std::min(digits, most_excused * scale));
+  return {solved, left / scale, !solved && left <= digits};
 }
 
 template <class R>

@@ -33,8 +33,16 @@ inline double weight_scale(double g, double h) {
 
 struct Balance {
   bool solved = false;
-  double residual = 0;  ///< the largest, in parts of the largest force; may be non-finite
+  double residual = 0;   ///< the largest, in parts of the largest force; may be non-finite
+  bool rounded = false;  ///< not solved, but no state in this precision would be
+  /// Whether there is nothing more to find.
+  bool found() const { return solved || rounded; }
 };
+/// Of two stages of a step.
+inline Balance both(const Balance& a, const Balance& b) {
+  const bool solved = a.solved && b.solved;
+  return {solved, std::max(a.residual, b.residual), !solved && a.found() && b.found()};
+}
 
 /// The largest forces of a stage, m.
 struct StageForces {

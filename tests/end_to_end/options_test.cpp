@@ -123,8 +123,10 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
 TEST_CASE("the work of solving is in JSON for every method that solves, whichever of its counts is 0") {
   const test::TemporaryFolder folder;
   const auto solves = [&](const char* method, const char* steps) {
-    check(folder, {"run", "hanging", "--set", "rows=6", "--set", "columns=6", "--integrator", method, "--steps", steps,
-                   "--json", "a.json"}, 0, "");
+    check(folder,
+          {"run", "hanging", "--set", "rows=6", "--set", "columns=6", "--integrator", method, "--steps", steps,
+           "--json", "a.json"},
+          0, "");
     return test::read_file(folder / "a.json").find("\"solves\": null") == std::string::npos;
   };
   for (const char* method : {"implicit_euler", "vbd", "projective_dynamics", "damped_verlet"}) {

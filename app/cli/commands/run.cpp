@@ -190,6 +190,7 @@ Json solves_json(const Simulation& simulation) {
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
+          {"unconverged_by_rounding", counts.rounded},
           {"ended_early", counts.ended_early},
           {"longest_limited_s", counts.longest_limited},
           {"worst_residual", finite_json(counts.worst_residual)}};

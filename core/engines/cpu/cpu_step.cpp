@@ -82,7 +82,7 @@ StepMeasures CpuEngine<R, Present>::measures(int step) {
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
   if (step_limit() > 0 && can_end_early(*scheme_)) result.limited_seconds = step_seconds();
   const Balance balance = solves_damping(*scheme_) ? damping_balance() : solver_.solved();
-  result.residual = balance.residual, result.converged = balance.solved;
+  result.residual = balance.residual, result.converged = balance.solved, result.rounded = balance.rounded;
   return result;
 }
 

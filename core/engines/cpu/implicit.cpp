@@ -49,15 +49,15 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   // A mass on a spring is linear: Newton's method solves it in one step.
   const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
-  const Balance balance = alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
-  if (!left_to_passes_) note_balance(balance);
+  alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
+  if (!left_to_passes_ && !stopped_) note_balance(judged_);
   return !stopped_;
 }
 
 template <class R>
 void ImplicitSolver<R>::note_balance(const Balance& balance) {
-  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
-  if (late_ && !balance.solved) counts_.ended_early += !std::exchange(counted_, true);
+  solved_ = both(solved_, balance);
+  if (late_ && !balance.found()) counts_.ended_early += !std::exchange(counted_, true);
 }
 
 template <class R>
@@ -121,14 +121,16 @@ Balance ImplicitSolver<R>::solve_stiff() {
                              [this] { return stops(); }, [this](double best) { return is_over(stiff_share(best)); },
                              [this](double part) { note_progress(part); }, task_.watch->crew},
       counts_);
-  if (!stopped_) evaluate();
+  // What was found in double may be less well balanced in the precision in which it is kept.
+  if (!stopped_) evaluate(), this->balance();
   return balance;
 }
 
 template <class R>
 Balance ImplicitSolver<R>::balance() {
-  return balance_of(StageView<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt,
-                                 position().row(0), velocity().row(0), start_v_.row(0), residual_.row(0), stride_});
+  return judged_ =
+             balance_of(StageView<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt,
+                                     position().row(0), velocity().row(0), start_v_.row(0), residual_.row(0), stride_});
 }
 
 template <class R>
