@@ -46,7 +46,7 @@ struct Measure {
 }  // namespace
 
 Balance judge(const StageForces& forces, double tolerance) {
-  constexpr double most_excused = 0.01;  // of the largest force: beyond that, last digits excuse nothing
+  constexpr double most_excused = 0.05;  // of the largest force: beyond that, last digits excuse nothing
   const auto [left, largest, weight, digits, weightless] = forces;
   if (!std::isfinite(left)) return {false, std::numeric_limits<double>::infinity()};
   if (weightless && std::max(left, largest) <= digits) return {true, 0};  // nothing acts
