@@ -194,11 +194,13 @@ py::object ledger(Motion& motion) {
 }
 
 py::object solves(const Motion& motion) {
-  const SolveCounts counts = motion.at_rest().engine().solves();
-  if (counts.newton == 0) return py::none();
+  const Simulation& simulation = motion.at_rest();
+  if (!solves_equations(scheme(simulation.preset().integrator))) return py::none();
+  const SolveCounts counts = simulation.engine().solves();
   py::dict dict;
   dict["newton_steps"] = counts.newton, dict["linear_steps"] = counts.linear;
   dict["force_evaluations"] = counts.force_evaluations, dict["unconverged"] = counts.unconverged;
+  dict["unconverged_by_rounding"] = counts.rounded;
   dict["ended_early"] = counts.ended_early, dict["longest_limited"] = counts.longest_limited;
   dict["worst_residual"] = counts.worst_residual;
   return dict;
@@ -354,7 +356,8 @@ void add_simulation(py::module_& module) {
           "solves", &solves,
           "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
           "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
-          "force_evaluations, unconverged (steps), ended_early (those of them that limit_steps ended), "
+          "force_evaluations, unconverged (steps), unconverged_by_rounding (those of them that would need more digits: "
+          "precision=\"double\"), ended_early (those of them that limit_steps ended), "
           "longest_limited (the longest step with such a limit, s of real time) and "
           "worst_residual, in parts of the largest force.")
       .def("limit_steps", &limit_steps, py::arg("seconds"),

@@ -33,10 +33,10 @@ struct Measure {
     return most;
   }
 
-  double largest_force() const {
+  double largest_spring_force() const {
     const Preset& p = stage.preset;
-    double most = scale * p.m * p.g;
-    if (p.kind == Kind::one_weight) return std::max(most, scale * p.k * std::abs(x(0, 0, 1) - p.x_0.y));
+    if (p.kind == Kind::one_weight) return scale * p.k * std::abs(x(0, 0, 1) - p.x_0.y);
+    double most = 0;
     for (int d = 0; d < int(directions.size()); ++d)
       for (int i = 0; i < stage.lattice.rows; ++i) most = std::max(most, spring_force(d, i));
     return most;
@@ -45,28 +45,41 @@ struct Measure {
 
 }  // namespace
 
+Balance judge(const StageForces& forces, double tolerance) {
+  constexpr double most_excused = 0.05;  // of the largest force: beyond that, last digits excuse nothing
+  const auto [left, largest, weight, digits, weightless] = forces;
+  if (!std::isfinite(left)) return {false, std::numeric_limits<double>::infinity()};
+  if (weightless && std::max(left, largest) <= digits) return {true, 0};  // nothing acts
+  const double scale = std::max(largest, weight);
+  const bool solved = left <= std::max(tolerance * scale, std::min(digits, most_excused * scale));
+  return {solved, left / scale, !solved && left <= digits};
+}
+
 template <class R>
 Balance balance_of(const StageView<R>& stage) {
   const Preset& p = stage.preset;
   const Measure<R> measure{stage, stage.h * stage.h / p.m};
-  double squared = 0, size = 0;
+  double left = 0, change = 0, size = 0;  // of velocities, squared; of positions
   for (int i = 0; i < stage.lattice.rows; ++i)
     for (int j = 0; j < stage.lattice.columns; ++j) {
       if (!stage.fixed.empty() && stage.fixed[std::size_t(i) * stage.lattice.columns + j]) continue;
-      double one = 0;
+      double one_left = 0, one_change = 0;
       for (int c = 0; c < 3; ++c) {
-        const double r = double(stage.residual[(3 * i + c) * stage.stride + j]);
-        one += r * r, size = std::max(size, std::abs(measure.x(i, j, c)));
+        const std::ptrdiff_t n = (3 * i + c) * stage.stride + j;
+        const double r = double(stage.residual[n]), dv = double(stage.v[n]) - double(stage.c_v[n]);
+        one_left += r * r, one_change += dv * dv;
+        size = std::max(size, std::abs(measure.x(i, j, c)));
       }
-      if (!std::isfinite(one)) return {false, std::numeric_limits<double>::infinity()};
-      squared = std::max(squared, one);
+      left = one_left <= left ? left : one_left;  // which a number that is none becomes
+      change = std::max(change, one_change);
     }
-  const double left = stage.h * std::sqrt(squared);
   const double k = p.kind == Kind::one_weight ? p.k : std::max(p.k_s, p.k_b);
-  const double least = last_digits(std::numeric_limits<R>::epsilon(), size, measure.scale * k);
-  const double force = measure.largest_force();
-  if (left <= std::max(balance_tolerance<R> * force, least)) return {true, force > 0 ? left / force : 0};
-  return {false, force > 0 ? left / force : std::numeric_limits<double>::infinity()};
+  return judge({.left = stage.h * std::sqrt(left),
+                .largest = std::max(stage.h * std::sqrt(change), measure.largest_spring_force()),
+                .weight = weight_scale(p.g, stage.h),
+                .digits = last_digits(std::numeric_limits<R>::epsilon(), size, measure.scale * k),
+                .weightless = p.g == 0},
+               balance_tolerance<R>);
 }
 
 template Balance balance_of(const StageView<float>&);

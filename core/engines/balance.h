@@ -1,6 +1,8 @@
 // Measures how well the forces of an implicit stage balance, which defines whether a step has converged.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,10 +24,37 @@ inline double last_digits(double epsilon, double size, double stiffness) {
   return 4 * epsilon * size * (1 + stiffness);
 }
 
+/// The weight of a particle, m: at least the one that it has on Earth, so that residuals have a scale where nothing
+/// else acts.
+inline double weight_scale(double g, double h) {
+  constexpr double on_earth = 9.82;  // m/s²
+  return h * h * std::max(std::abs(g), on_earth);
+}
+
 struct Balance {
   bool solved = false;
-  double residual = 0;  ///< the largest, in parts of the largest force; may be non-finite
+  double residual = 0;   ///< the largest, in parts of the largest force; may be non-finite
+  bool rounded = false;  ///< not solved, but no state in this precision would be
+  /// Whether there is nothing more to find.
+  bool found() const { return solved || rounded; }
 };
+/// Of two stages of a step.
+inline Balance both(const Balance& a, const Balance& b) {
+  const bool solved = a.solved && b.solved;
+  return {solved, std::max(a.residual, b.residual), !solved && a.found() && b.found()};
+}
+
+/// The largest forces of a stage, m.
+struct StageForces {
+  double left;     ///< residual on a particle
+  double largest;  ///< of a spring, or what changes the velocity of a particle
+  double weight;   ///< weight_scale()
+  double digits;   ///< last_digits()
+  bool weightless;
+};
+/// The residual of a stage, and whether it counts as solved: below `tolerance`, or below the last digits where these
+/// are small compared with the largest force.
+Balance judge(const StageForces& forces, double tolerance);
 
 /// A stage x = c_x + h v, v = c_v + h a(x, v), as an engine stores it: each array row by row, its x, then its y, then
 /// its z, `stride` numbers each.
@@ -37,11 +66,11 @@ struct StageView {
   std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
   double h;                             ///< s
   const R* x;
+  const R *v, *c_v;
   const R* residual;  ///< h a - (v - c_v), m/s
   std::ptrdiff_t stride;
 };
 
-/// The largest force is that of a spring, or the weight of a particle.
 template <class R>
 Balance balance_of(const StageView<R>& stage);
 

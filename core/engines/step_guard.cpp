@@ -69,7 +69,8 @@ BatchResult StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Faul
     if (tear) tear_budget_ = engine.tear_overloaded(tears);
     if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, BatchEnd::fault};
     if (fast && engine.find_runaway(limit_, fault)) return {n, BatchEnd::fault};
-    unconverged_steps_ += !step.converged, worst_residual_ = std::max(worst_residual_, step.residual);
+    unconverged_steps_ += !step.converged, rounded_steps_ += step.rounded;
+    worst_residual_ = std::max(worst_residual_, step.residual);
     longest_limited_ = std::max(longest_limited_, step.limited_seconds);
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
     if (release) return {n + 1, BatchEnd::released};

@@ -43,6 +43,7 @@ struct StepMeasures {
   std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
   double residual = 0;                   ///< of equations that the step has solved, as Balance has it
   bool converged = true;                 ///< whether that counts as solved
+  bool rounded = false;                  ///< no: by the last digits of positions alone
   double limited_seconds = 0;            ///< real time it took, where that has a limit
 };
 
@@ -131,7 +132,8 @@ class StepGuard {
 
   /// Adds what is known of whole steps alone.
   SolveCounts with_steps(SolveCounts solves) const {
-    solves.unconverged = unconverged_steps_, solves.worst_residual = worst_residual_;
+    solves.unconverged = unconverged_steps_, solves.rounded = rounded_steps_;
+    solves.worst_residual = worst_residual_;
     solves.longest_limited = longest_limited_;
     return solves;
   }
@@ -164,7 +166,7 @@ class StepGuard {
   MotionLimit limit_, limit_backup_;
   bool energy_stale_ = false, pushes_stale_ = false;
   int left_inside_ = 0;
-  std::int64_t unconverged_steps_ = 0;
+  std::int64_t unconverged_steps_ = 0, rounded_steps_ = 0;
   double worst_residual_ = 0;
   double longest_limited_ = 0;  ///< s
   glm::dvec3 hand_force_{0};

@@ -139,6 +139,10 @@ inline bool projects(const Scheme& scheme) {
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;
 }
+/// Whether a step solves equations of any kind (SolveCounts).
+inline bool solves_equations(const Scheme& scheme) {
+  return is_implicit(scheme) || solves_damping(scheme);
+}
 /// Whether `iterations` bounds what a step does.
 inline bool iterates(const Scheme& scheme) {
   return is_implicit(scheme) || projects(scheme);
@@ -167,6 +171,7 @@ struct SolveCounts {
   std::int64_t linear = 0;  ///< iterations of conjugate gradients within them, or products with a constant matrix
   std::int64_t force_evaluations = 0;
   std::int64_t unconverged = 0;  ///< steps whose forces do not balance, in any of their stages
+  std::int64_t rounded = 0;      ///< those of them in which only more digits of the positions could help
   std::int64_t ended_early = 0;  ///< steps that ended because their time was up (Engine::limit_steps)
   double longest_limited = 0;    ///< real time of the longest step that had a limit (Engine::limit_steps), s
   double worst_residual = 0;     ///< of all steps, in parts of the largest force; may be infinite

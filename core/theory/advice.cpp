@@ -65,8 +65,15 @@ std::string solves_missed(const SolveCounts& solves, const Preset& p) {
                            : worst < 1
                                ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
                                : "up to " + short_number(worst, 2) + " times the largest force was left over";
-  const std::string said = std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" +
-                           left + "), so the motion is " + (worst < much ? "not quite " : "not ") +
+  const std::string count =
+      std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" + left + ")";
+  if (2 * solves.rounded >= solves.unconverged) {
+    const bool single = p.precision == Precision::float_;
+    return count + ": with springs this stiff, rounding positions to " + (single ? "float" : "double") +
+           " changes forces that much. " +
+           (single ? "Use double precision (--precision double)." : "Use a smaller k_s or a larger m.");
+  }
+  const std::string said = count + ", so the motion is " + (worst < much ? "not quite " : "not ") +
                            (counts_passes(scheme(p.integrator)) ? "implicit Euler's. " : "the method's. ");
   const std::string passes = counts_passes(scheme(p.integrator))
                                  ? "Each step ends after " + std::to_string(p.iterations) +

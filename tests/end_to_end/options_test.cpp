@@ -120,6 +120,23 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
   }
 }
 
+TEST_CASE("the work of solving is in JSON for every method that solves, whichever of its counts is 0") {
+  const test::TemporaryFolder folder;
+  const auto solves = [&](const char* method, const char* steps) {
+    check(folder,
+          {"run", "hanging", "--set", "rows=6", "--set", "columns=6", "--integrator", method, "--steps", steps,
+           "--json", "a.json"},
+          0, "");
+    return test::read_file(folder / "a.json").find("\"solves\": null") == std::string::npos;
+  };
+  for (const char* method : {"implicit_euler", "vbd", "projective_dynamics", "damped_verlet"}) {
+    CAPTURE(std::string(method));
+    CHECK(solves(method, "0"));
+    CHECK(solves(method, "2"));
+  }
+  for (const char* method : {"verlet", "xpbd", "dopri5"}) CHECK_FALSE(solves(method, "2"));
+}
+
 TEST_CASE("a file whose name is not UTF-8 is named in JSON as far as it can be") {
   const test::TemporaryFolder folder;
   check(folder, {"run", "hanging", "--steps", "1", "--state", "\xff.csv", "--json", "a.json"}, 0, "Wrote");

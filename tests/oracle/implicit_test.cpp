@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/cloth/lattice.h"
+#include "core/integrators/scheme.h"
 #include "core/simulation.h"
+#include "core/theory/advice.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
@@ -56,7 +58,8 @@ Stage stage_of(const Preset& preset, const State& before, const State& after) {
   return {next_x, next_v, combined(1 / c, inner_v, -b / c, v), h};
 }
 
-/// The largest force on a free particle that nothing balances, in parts of the largest force of a spring.
+/// The largest force on a free particle that nothing balances, in parts of the largest force: of a spring, on a
+/// particle, or a particle's weight on Earth.
 double imbalance(Preset preset, Simulation& simulation, const Stage& stage) {
   preset.integrator = "euler";
   oracle::Cloth cloth(preset);
@@ -74,7 +77,7 @@ double imbalance(Preset preset, Simulation& simulation, const Stage& stage) {
         }
       }
     }
-  double left = 0, most = preset.m * preset.g;
+  double left = 0, most = preset.m * std::max(std::abs(preset.g), 9.82);
   for (int i = 0; i < preset.rows; ++i)
     for (int j = 0; j < preset.columns; ++j) {
       const std::size_t p = std::size_t(i) * preset.columns + j;
@@ -87,6 +90,7 @@ double imbalance(Preset preset, Simulation& simulation, const Stage& stage) {
       }
       if (cloth.at(i, j).pinned) continue;
       const Vec change = preset.m / stage.h * (stage.v[p] - stage.c_v[p]);
+      most = std::max(most, glm::length(change));
       left = std::max(left, glm::length(cloth.forces(i, j).F() - change));
     }
   return left / most;
@@ -142,14 +146,14 @@ TEST_CASE("they balance with cuts, other pins, wind, heavy damping, without bend
   }
 }
 
-TEST_CASE("in float a step converges to a ten-thousandth, and one linearised step says that it has not") {
+TEST_CASE("in float a step converges as far as positions allow, and one linearised step says that it has not") {
   for (const double k_s : {50.0, 1e5}) {
     Preset preset = stiff_cloth(24, k_s, "implicit_euler");
     preset.precision = Precision::float_;
     Simulation simulation(preset);
     simulation.advance(8);
     CHECK(simulation.engine().solves().unconverged == 0);
-    CHECK(simulation.engine().solves().worst_residual <= 1e-4);
+    CHECK(simulation.engine().solves().worst_residual <= (k_s < 100 ? 1e-3 : 0.05));
   }
   Preset preset = stiff_cloth(24, 1e5, "implicit_euler");
   preset.iterations = 1;
@@ -183,6 +187,73 @@ TEST_CASE("what a fixed number of passes leaves of implicit Euler's equations is
       preset.dt = 5e-4, preset.k_s = 50, preset.iterations = 100;
       CHECK(largest_imbalance(preset, 4) <= slack);
     }
+}
+
+TEST_CASE("where nothing acts nothing is left over, and every residual has a scale") {
+  for (const char* method : {"implicit_euler", "implicit_midpoint", "tr_bdf2", "projective_dynamics", "vbd"})
+    for (const Precision precision : {Precision::float_, Precision::double_})
+      for (const double k_s : {50.0, 1e5}) {
+        CAPTURE(std::string(method));
+        CAPTURE(int(precision));
+        CAPTURE(k_s);
+        Preset preset = test::cloth(2, 1, method);
+        preset.precision = precision, preset.k_s = k_s, preset.g = 0;
+        for (const int columns : {1, 7}) {
+          preset.columns = columns;
+          Simulation simulation(preset);
+          simulation.advance(4);
+          CHECK(simulation.engine().solves().unconverged == 0);
+          CHECK(simulation.engine().solves().worst_residual == 0);
+        }
+        // Weightless and slack, with damping alone; and falling upward.
+        preset.rows = 6, preset.L = 0.04, preset.k_b = 0, preset.initial_stretch = 0.5;
+        preset.k_d = std::string(method) == "vbd" ? 0.02 : 10;  // the more, the more passes it needs
+        preset.pins.mode = Pins::Mode::none, preset.iterations = 100;
+        for (const double g : {0.0, -9.82}) {
+          CAPTURE(g);
+          preset.g = g;
+          Simulation simulation(preset);
+          test::load(simulation, test::crumpled(preset, 3, 0.1, 0.01));
+          simulation.advance(4);
+          CHECK(simulation.engine().solves().unconverged == 0);
+          CHECK(std::isfinite(simulation.engine().solves().worst_residual));
+        }
+      }
+}
+
+TEST_CASE("what is claimed of a step holds of the state that is kept, and says where float is too coarse") {
+  for (const char* method : {"implicit_euler", "implicit_midpoint", "tr_bdf2", "projective_dynamics", "vbd"})
+    for (const Precision precision : {Precision::float_, Precision::double_})
+      for (const double k_s : {50.0, 1e3, 1e5, 1e7, 1e8}) {
+        if (test::sanitized && k_s != 1e5) continue;
+        CAPTURE(std::string(method));
+        CAPTURE(int(precision));
+        CAPTURE(k_s);
+        Preset preset = test::cloth(10, 9, method);
+        preset.precision = precision, preset.k_s = k_s, preset.k_b = 0, preset.dt = 0.02;
+        Simulation simulation(preset);
+        double most = 0;
+        for (int n = 0; n < 5; ++n) {
+          const State before = simulation.read();
+          simulation.advance(1);
+          most = std::max(most, imbalance(preset, simulation, stage_of(preset, before, simulation.read())));
+        }
+        const SolveCounts solves = simulation.engine().solves();
+        CAPTURE(most);
+        CAPTURE(solves.worst_residual);
+        const bool single = precision == Precision::float_;
+        const double read = single ? 2e-4 : slack;
+        CHECK(most <= 1.25 * solves.worst_residual + read);
+        if (preset.integrator != "tr_bdf2") CHECK(most >= solves.worst_residual / 1.25 - read);  // it has two stages
+        if (solves.unconverged == 0) CHECK(most <= (single ? 0.0625 : slack));
+        if (counts_passes(scheme(method))) continue;
+        if (!single && k_s <= 1e5) CHECK(solves.unconverged == 0);
+        if (single && k_s >= 1e7) CHECK(solves.unconverged > 0);
+        if (single && k_s >= 1e7 && preset.integrator == "implicit_euler") {
+          CHECK(solves.rounded == 5);
+          CHECK(solves_missed(solves, preset).find("--precision double") != std::string::npos);
+        }
+      }
 }
 
 TEST_CASE("stiff steps end with the same bits on any number of threads, on a body and with tears") {

@@ -220,6 +220,10 @@ class Simulations(unittest.TestCase):
         self.assertEqual(simulation.solves["unconverged"], 3)
         self.assertGreater(simulation.solves["worst_residual"], 1e-4)
         self.assertIsNone(tyglab.Simulation(tyglab.Preset(integrator="verlet")).solves)
+        damped = tyglab.Simulation(tyglab.Preset(integrator="damped_verlet", k_d=1e6, rows=8, columns=8))
+        damped.step(2)
+        self.assertEqual(damped.solves["linear_steps"], 2000)
+        self.assertEqual(damped.solves["unconverged"], 2)
 
     def test_a_step_can_be_limited_in_time(self):
         simulation = tyglab.Simulation(tyglab.Preset(integrator="vbd", k_s=1e6, dt=0.02, rows=16, columns=16))

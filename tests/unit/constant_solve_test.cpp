@@ -180,6 +180,38 @@ TEST_CASE("a heavily damped sheet comes to rest at nearly twice 1/ω, where Verl
     }
 }
 
+TEST_CASE("an unfinished solve slows no motion that is common to a piece of the cloth, and is reported") {
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    Preset p = test::cloth(12, 10, "damped_verlet");
+    p.k_d = 1e6, p.dt = 1e-3, p.precision = precision;
+    const int steps = test::fewer(100, 20);
+    const double t = steps * p.dt, fallen = p.g * t * t / 2, close = precision == Precision::double_ ? 1e-9 : 2e-5;
+    const auto lowest = [&](Simulation& simulation) {
+      const State state = simulation.read();
+      return state.x.y[state.x.y.size() - 1];
+    };
+    // Held by nothing, it falls as a whole: nothing is left unsolved.
+    Preset loose = p;
+    loose.pins.mode = Pins::Mode::none, loose.iterations = 1;
+    Simulation falls(loose);
+    const double start = lowest(falls);
+    falls.advance(steps);
+    CHECK(std::abs(start - lowest(falls) - fallen) < close);
+    CHECK(falls.engine().solves().unconverged == 0);
+    CHECK(falls.engine().solves().linear == std::int64_t(steps) * 2 * cpu::ConstantSolver<double>::most_products);
+    // Cut in two, its lower part does; for the upper one the products do not suffice.
+    Simulation halves(p);
+    edit::Cut cut;
+    for (int j = 0; j < p.columns; ++j) cut.sites.push_back({5, j});
+    halves.apply(cut);
+    halves.advance(steps);
+    CHECK(std::abs(start - lowest(halves) - fallen) < close);
+    CHECK(halves.engine().solves().unconverged == steps);
+    CHECK(halves.engine().solves().worst_residual > 1e-3);
+    CHECK(solves_missed(halves.engine().solves(), p).find("smaller k_d") != std::string::npos);
+  }
+}
+
 TEST_CASE("beyond 2/ω damped_verlet grows, damped or not") {
   for (const double zeta : {0.0, 0.5}) {
     CAPTURE(zeta);

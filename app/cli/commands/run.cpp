@@ -209,14 +209,15 @@ Json features_json(const Engine& engine) {
   return json;
 }
 
-/// What an implicit method did; null for others.
-Json solves_json(const Engine& engine) {
-  const SolveCounts counts = engine.solves();
-  if (counts.newton == 0) return nullptr;
+/// What a method that solves equations did; null for others.
+Json solves_json(const Simulation& simulation) {
+  if (!solves_equations(scheme(simulation.preset().integrator))) return nullptr;
+  const SolveCounts counts = simulation.engine().solves();
   return {{"newton_steps", counts.newton},
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
+          {"unconverged_by_rounding", counts.rounded},
           {"ended_early", counts.ended_early},
           {"longest_limited_s", counts.longest_limited},
           {"worst_residual", finite_json(counts.worst_residual)}};
@@ -262,9 +263,9 @@ Json engine_choice_json(const EngineChoice* choice) {
 }
 
 /// What a method that chooses its own steps did; null for others.
-Json inner_steps_json(const Engine& engine) {
-  const InnerSteps inner = engine.inner_steps();
-  if (inner.accepted == 0) return nullptr;
+Json inner_steps_json(const Simulation& simulation) {
+  if (!chooses_steps(scheme(simulation.preset().integrator))) return nullptr;
+  const InnerSteps inner = simulation.engine().inner_steps();
   return {{"accepted", inner.accepted},
           {"rejected", inner.rejected},
           {"by_stability", inner.by_stability},
@@ -297,8 +298,8 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"ns_per_particle_step", ns_per_particle_step},
           {"bytes_per_particle", double(simulation.engine().bytes()) / simulation.lattice().size()},
           {"features", features_json(simulation.engine())},
-          {"solves", solves_json(simulation.engine())},
-          {"inner_steps", inner_steps_json(simulation.engine())},
+          {"solves", solves_json(simulation)},
+          {"inner_steps", inner_steps_json(simulation)},
           {"tolerance_choice", choice_json(scene.choice.get())},
           {"engine_choice", engine_choice_json(scene.engine_choice.get())},
           {"torn", simulation.tears().torn_count()},

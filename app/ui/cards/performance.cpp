@@ -9,6 +9,7 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/engines/vertex_sharing.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
@@ -204,10 +205,14 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   const double step = ui.session.copies.lockstep.empty() ? ui.session.pacing.step_cost_s()
                                                          : ui.session.copies.cost.per_second() * ui.session.preset().dt;
   facts.push_back({"per particle and step", text("%.2f ns", 1e9 * step / particles)});
-  if (const SolveCounts solves = engine.solves(); solves.newton > 0) {
+  if (const Scheme& method = scheme(ui.session.preset().integrator); solves_equations(method)) {
+    const SolveCounts solves = engine.solves();
     const auto steps = double(std::max<std::int64_t>(1, ui.session.simulation->steps()));
-    facts.push_back({"Newton, CG per step",
-                     text("%.1f, ", double(solves.newton) / steps) + text("%.0f", double(solves.linear) / steps)});
+    const std::string linear = text("%.0f", double(solves.linear) / steps);
+    if (solves_damping(method))
+      facts.push_back({"products per step", linear});
+    else
+      facts.push_back({"Newton, CG per step", text("%.1f, ", double(solves.newton) / steps) + linear});
     facts.push_back({"steps unconverged", std::to_string(solves.unconverged)});
     if (solves.ended_early > 0) {
       facts.push_back({"ended by the time limit", std::to_string(solves.ended_early)});

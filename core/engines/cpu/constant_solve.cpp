@@ -42,18 +42,97 @@ void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, Sprin
     columns_ = cloth.lattice.columns, stride_ = cloth.stride, rows_ = cloth.lattice.rows;
     changed = true;
   }
-  if (changed) make_masks(cloth, tears);
-  if (weights == weights_ && tolerance == tolerance_) return;
+  if (changed) make_masks(cloth, tears), piece_of_.clear();
+  if (weights == weights_ && tolerance == tolerance_) {
+    if (!products_suffice() && piece_of_.empty()) find_pieces(cloth, tears);
+    return;
+  }
   weights_ = weights, tolerance_ = tolerance;
   // What no lattice's sums of squared differences exceed, times the squares: 12 along stretch springs, 8 along bending
   // ones. Fewer springs and fixed particles make them less.
   kappa_ = 1 + 12 * weights.stretch + 8 * weights.bending;
   products_ = 0, left_ = 0;
+  piece_of_.clear();
   if (kappa_ == 1) return;
   // Each round of n leaves 1/T_n((κ + 1)/(κ - 1)) at most.
   const double rate = std::acosh((kappa_ + 1) / (kappa_ - 1));
   products_ = int(std::clamp(std::ceil(std::acosh(1 / std::sqrt(tolerance)) / rate), 1.0, double(most_products)));
   left_ = 1 / std::pow(std::cosh(products_ * rate), 2);
+  if (!products_suffice()) find_pieces(cloth, tears);
+}
+
+template <class R>
+void ConstantSolver<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
+  constexpr int none = -1;
+  std::vector<int> piece_of(std::size_t(rows_) * columns_, none), found;
+  means_.clear();
+  squares_.assign(std::size_t(rows_), {});
+  for (int first = 0; first < rows_ * columns_; ++first) {
+    if (piece_of[std::size_t(first)] != none) continue;
+    const int piece = int(means_.size());
+    Mean& mean = means_.emplace_back();
+    found.assign(1, first), piece_of[std::size_t(first)] = piece;
+    // found grows as its particles' neighbors are found.
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      const int i = found[n] / columns_, j = found[n] % columns_;
+      mean.held = mean.held || free_[std::size_t(i) * stride_ + j] == 0;
+      const auto look = [&](int d, int owner_i, int owner_j, int to_i, int to_j) {
+        if (!cloth.lattice.has_spring(d, owner_i, owner_j) || !tears.whole(d, owner_i, owner_j)) return;
+        int& of = piece_of[std::size_t(to_i) * columns_ + to_j];
+        if (of == none) of = piece, found.push_back(to_i * columns_ + to_j);
+      };
+      for (int d = 0; d < int(directions.size()); ++d) {
+        const Direction& to = directions[std::size_t(d)];
+        if ((to.bending ? weights_.bending : weights_.stretch) == 0) continue;
+        look(d, i, j, i + to.di, j + to.dj);
+        look(d, i - to.di, j - to.dj, i - to.di, j - to.dj);
+      }
+    }
+    mean.particles = double(found.size());
+  }
+  piece_of_.swap(piece_of);  // now that all of the memory is there
+}
+
+/// On one thread.
+template <class R>
+void ConstantSolver<R>::subtract_means(Field& r) {
+  for (Mean& mean : means_) std::fill_n(mean.sum, 3, 0.0);
+  const auto for_each = [&](const auto& what) {
+    for (int i = 0; i < rows_; ++i)
+      for (int j = 0; j < columns_; ++j) {
+        Mean& mean = means_[std::size_t(piece_of_[std::size_t(i) * columns_ + j])];
+        if (!mean.held)
+          for (int c = 0; c < 3; ++c) what(r.row(i, c)[j], mean.sum[c], mean.particles);
+      }
+  };
+  for_each([](R value, double& sum, double particles) { sum += double(value) / particles; });
+  for_each([](R& value, double mean, double) { value = R(double(value) - mean); });
+}
+
+/// Row i of r from a_ and the means.
+template <class R>
+void ConstantSolver<R>::add_means(Field& r, int i) {
+  Size& squares = squares_[std::size_t(i)];
+  squares = {};
+  for (int j = 0; j < columns_; ++j) {
+    const Mean& mean = means_[std::size_t(piece_of_[std::size_t(i) * columns_ + j])];
+    for (int c = 0; c < 3; ++c) {
+      const double changing = double(a_.row(i + ghost_rows, c)[j]), whole = changing + mean.sum[c];
+      r.row(i, c)[j] = R(whole);
+      squares.solution += whole * whole, squares.lacking += changing * changing;
+    }
+  }
+}
+
+template <class R>
+typename ConstantSolver<R>::Size ConstantSolver<R>::size() const {
+  if (piece_of_.empty()) return {};
+  Size all;
+  for (const Size& row : squares_) all.solution += row.solution, all.lacking += row.lacking;
+  const double particles = double(piece_of_.size());
+  // The part of the solution that changes from particle to particle is at least 1 - left_ of what it should be.
+  const double found = std::max(1 - left_, 1e-12);
+  return {std::sqrt(all.solution / particles), left_ / found * std::sqrt(all.lacking / particles)};
 }
 
 /// From a_ and, unless it is the first of a round, b_ before it to b_: all of the rows.
@@ -84,6 +163,7 @@ void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<
     barrier();
   };
   const double middle = (kappa_ + 1) / 2, half = (kappa_ - 1) / 2, ratio = half * half / (4 * middle * middle);
+  if (begin == 0 && !piece_of_.empty()) subtract_means(r);
   for (int i = begin; i < end; ++i) std::fill_n(a_.row(i + ghost_rows), a_.pitch(), R(0));
   barrier();
   for (int round = 0; round < 2; ++round) {
@@ -96,7 +176,10 @@ void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<
     }
   }
   for (int i = begin; i < end; ++i)
-    for (int c = 0; c < 3; ++c) std::copy_n(a_.row(i + ghost_rows, c), columns_, r.row(i, c));
+    if (piece_of_.empty())
+      for (int c = 0; c < 3; ++c) std::copy_n(a_.row(i + ghost_rows, c), columns_, r.row(i, c));
+    else
+      add_means(r, i);
 }
 
 template class ConstantSolver<float>;

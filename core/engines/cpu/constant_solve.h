@@ -1,10 +1,13 @@
 // Linear systems on the lattice with a matrix that does not depend on the motion: A = 1 + Σ over intact springs of β
 // (e_i - e_j)(e_i - e_j)ᵀ, for each of x, y and z, with 0 for pinned and held particles. The Chebyshev iteration solves
 // them. It needs only bounds of the eigenvalues, so the bits of a solution are identical for any number of threads.
+// Where its products do not suffice, the mean of each piece of the lattice that nothing holds is solved for exactly: A
+// leaves it as it is, since it stretches no spring.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "core/engines/cpu/band.h"
 #include "core/model/preset.h"
@@ -33,13 +36,24 @@ class ConstantSolver {
   int products() const { return products_; }
   /// Bound of what a solution leaves of the residual, as a part of it.
   double left() const { return left_; }
-  /// The same where it is more than the tolerance; else 0.
-  double missed() const { return left_ > tolerance_ * (1 + 1e-9) ? left_ : 0; }
-  std::size_t bytes() const { return a_.bytes() + b_.bytes() + (whole_.size() + free_.size()) * sizeof(R); }
+  /// Root mean squares over the particles of the last solution, and of what it lacks at most where products did not
+  /// suffice.
+  struct Size {
+    double solution = 0, lacking = 0;
+  };
+  Size size() const;
+  std::size_t bytes() const {
+    return a_.bytes() + b_.bytes() + (whole_.size() + free_.size()) * sizeof(R) + piece_of_.capacity() * sizeof(int) +
+           means_.capacity() * sizeof(Mean) + squares_.capacity() * sizeof(Size);
+  }
 
  private:
   void make_masks(const Cloth<R>& cloth, const Tears& tears);
   void iterate(const Field& r, int begin, int end, double omega, bool first);
+  bool products_suffice() const { return left_ <= tolerance_ * (1 + 1e-9); }
+  void find_pieces(const Cloth<R>& cloth, const Tears& tears);
+  void subtract_means(Field& r);
+  void add_means(Field& r, int i);
 
   int rows_ = 0, columns_ = 0, stride_ = 0;
   double weight_ = 0;  ///< not 0: the matrix of a mass on a spring, a number
@@ -49,6 +63,13 @@ class ConstantSolver {
   Array<R> whole_;  ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
   Array<R> free_;   ///< 0 for fixed particles and beyond the columns, else 1
   Field a_, b_;     ///< of the iteration, with two rows of zeros above and below
+  struct Mean {
+    double sum[3] = {0, 0, 0}, particles = 0;
+    bool held = false;  ///< by fixed particles
+  };
+  std::vector<int> piece_of_;  ///< of each particle; empty while products suffice
+  std::vector<Mean> means_;    ///< of each piece
+  std::vector<Size> squares_;  ///< of each row: of the solution, and of it without means
 };
 
 }  // namespace tyglab::cpu

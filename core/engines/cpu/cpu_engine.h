@@ -204,6 +204,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void read_hand(const Tears& tears);
   /// For a method that solves for the damping: the matrix, where springs or what is fixed have changed.
   void prepare_damping(const Tears& tears);
+  Balance damping_balance() const;
   /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
   /// Makes that many steps in one pass over the rows: each sweep is two rows behind the one before it, so that rows are

@@ -81,12 +81,26 @@ StepMeasures CpuEngine<R, Present>::measures(int step) {
   if (hand && projected) result.hand_force = hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
   if (step_limit() > 0 && can_end_early(*scheme_)) result.limited_seconds = step_seconds();
-  if (solves_damping(*scheme_)) {
-    result.residual = constant_.missed(), result.converged = result.residual == 0;
-  } else {
-    result.residual = solver_.solved().residual, result.converged = solver_.solved().solved;
-  }
+  const Balance balance = solves_damping(*scheme_) ? damping_balance() : solver_.solved();
+  result.residual = balance.residual, result.converged = balance.solved, result.rounded = balance.rounded;
   return result;
+}
+
+/// What the solution for the damping lacks is a force that is missing.
+template <class R, unsigned Present>
+Balance CpuEngine<R, Present>::damping_balance() const {
+  const auto [solution, lacking] = constant_.size();
+  if (lacking == 0) return {true, 0};
+  const Preset& p = cloth_.preset;
+  double size = 0;
+  for (const R x : cloth_.vectors[vector_x].all()) size = std::max(size, std::abs(double(x)));
+  const double square = p.dt * p.dt, stiffness = std::max(p.k_s, p.k_b) * square / p.m;
+  return judge({.left = square * lacking,
+                .largest = square * (solution + lacking),
+                .weight = weight_scale(p.g, p.dt),
+                .digits = last_digits(std::numeric_limits<R>::epsilon(), size, stiffness),
+                .weightless = p.g == 0},
+               balance_tolerance<R>);
 }
 
 template <class R, unsigned Present>
@@ -299,6 +313,7 @@ AdvanceResult CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   template AdvanceResult CpuEngine<R, (present)>::advance(int, Tears&);            \
   template BatchResult CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&);   \
   template StepMeasures CpuEngine<R, (present)>::measures(int);                    \
+  template Balance CpuEngine<R, (present)>::damping_balance() const;               \
   template double CpuEngine<R, (present)>::tear_overloaded(Tears&);                \
   template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);      \
   template bool CpuEngine<R, (present)>::find_runaway(const MotionLimit&, Fault&); \

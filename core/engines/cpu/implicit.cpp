@@ -8,18 +8,6 @@ namespace tyglab::cpu {
 
 using namespace implicit;
 
-namespace {
-
-/// Of a fixed number of passes, which end wherever they are: the last digits of the positions of a very stiff cloth in
-/// float would excuse any force.
-Balance after_passes(Balance balance) {
-  constexpr double most_excused = 0.01;  // of the largest force
-  balance.solved = balance.solved && balance.residual <= most_excused;
-  return balance;
-}
-
-}  // namespace
-
 template <class R>
 void ImplicitSolver<R>::resize() {
   if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return;
@@ -66,15 +54,15 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   // A mass on a spring is linear: Newton's method solves it in one step.
   const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
-  const Balance balance = alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
-  if (!left_to_passes_) note_balance(balance);
+  alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
+  if (!left_to_passes_ && !stopped_) note_balance(judged_);
   return !stopped_;
 }
 
 template <class R>
 void ImplicitSolver<R>::note_balance(const Balance& balance) {
-  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
-  if (late_ && !balance.solved) counts_.ended_early += !std::exchange(counted_, true);
+  solved_ = both(solved_, balance);
+  if (late_ && !balance.found()) counts_.ended_early += !std::exchange(counted_, true);
 }
 
 template <class R>
@@ -91,7 +79,7 @@ void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accel
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   evaluate();
   counts_.newton += passes, counts_.force_evaluations += 2 * passes + 1;  // before and after each particle's step
-  note_balance(after_passes(balance()));
+  note_balance(balance());
 }
 
 template <class R>
@@ -120,7 +108,7 @@ Balance ImplicitSolver<R>::alternate(bool changed) {
     evaluate();
     ++counts_.newton, ++counts_.force_evaluations;
   }
-  return after_passes(balance());
+  return balance();
 }
 
 template <class R>
@@ -138,14 +126,16 @@ Balance ImplicitSolver<R>::solve_stiff() {
                              [this] { return stops(); }, [this](double best) { return is_over(stiff_share(best)); },
                              [this](double part) { note_progress(part); }, task_.watch->crew},
       counts_);
-  if (!stopped_) evaluate();
+  // What was found in double may be less well balanced in the precision in which it is kept.
+  if (!stopped_) evaluate(), this->balance();
   return balance;
 }
 
 template <class R>
 Balance ImplicitSolver<R>::balance() {
-  return balance_of(StageView<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt,
-                                 position().row(0), residual_.row(0), stride_});
+  return judged_ =
+             balance_of(StageView<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt,
+                                     position().row(0), velocity().row(0), start_v_.row(0), residual_.row(0), stride_});
 }
 
 template <class R>

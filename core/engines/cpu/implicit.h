@@ -37,7 +37,7 @@ class ImplicitSolver final : private implicit::EitherStage {
 
   /// A step begins, whose stages come next.
   void begin_step() { solved_ = {true, 0}, late_ = counted_ = false; }
-  /// The stages of the step: whether all are solved, and the largest residual.
+  /// The stages of the step together, as they are kept, in the precision of the state.
   const Balance& solved() const { return solved_; }
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
   /// Returns false where it was stopped; the vectors may then hold anything.
@@ -76,7 +76,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Balance solve_stiff() override;
   Balance solve_quickly() override;
   void keep() override { kept_ = velocity(); }
-  void restore() override { velocity() = kept_, evaluate(); }
+  void restore() override { velocity() = kept_, evaluate(), balance(); }
   bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
   bool out_of_time() override { return is_over(1); }
   StageLimit limit() override { return task_.watch->limit; }
@@ -108,6 +108,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   bool stopped_ = false, left_to_passes_ = false;
   bool late_ = false, counted_ = false;  ///< in this step: time was up for something; that counts
   Balance solved_{true, 0};
+  Balance judged_;  ///< of the present stage, by balance()
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs
   Field start_x_, start_v_;  ///< c_x and c_v

@@ -147,7 +147,7 @@ double InteriorPoint<R>::linearize() {
     right_ = forces_;
   }
   double products = 0;
-  residual_ = 0, force_ = task_->gravity;
+  residual_ = 0, force_ = task_->weight;
   const std::ptrdiff_t fast = fast_stride();
   for_rows([&](int i) {
     const BarrierSums sums = linearize_row<R>(row(i), forces_.row(i), right_.row(i),

@@ -35,6 +35,7 @@ class InteriorPoint {
   struct Task {
     BarrierConstants constants;
     double gravity;    ///< h² g, m
+    double weight;     ///< weight_scale()
     double tolerance;  ///< of the largest residual, in parts of the largest force
     const Tears* tears;
     std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is

@@ -68,6 +68,7 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
   if (!begun) return {};
   typename InteriorPoint<S>::Task inner{.constants = {p.k_s * scale, p.k_b * scale, p.k_d * h / p.m, p.L},
                                         .gravity = h * h * p.g,
+                                        .weight = weight_scale(p.g, h),
                                         .tolerance = task.tolerance,
                                         .tears = &task.tears,
                                         .fixed = task.fixed,
@@ -105,7 +106,7 @@ Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, Too
   if (stiff_first && slow) return stage.solve_quickly();
   if (stiff_first && limited) stage.keep();
   const Balance first = stiff_first ? stage.solve_stiff() : stage.solve_by_newton();
-  if (first.solved || !both || stage.stops()) return first;
+  if (first.found() || !both || stage.stops()) return first;
   if (stiff_first && first.residual > nearly_there && over(first_share)) {
     too_slow.stages = 16;
     stage.restore();
@@ -114,7 +115,7 @@ Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, Too
   if (over(1)) return first;
   stage.keep();
   const Balance second = stiff_first ? stage.solve_by_newton() : stage.solve_stiff();
-  if (second.solved || second.residual < first.residual || stage.stops()) return second;
+  if (second.found() || second.residual < first.residual || stage.stops()) return second;
   stage.restore();
   return first;
 }

@@ -58,8 +58,8 @@ bool DeviceSolver<R>::solve(const Task& task) {
   const int position = task.position, velocity = task.velocity;
   state_.copy(state_.vector(position), start_x_.get()), state_.copy(state_.vector(velocity), start_v_.get());
   read_scene();
-  const Balance balance = solve_either_way(*this, *task.preset, task.h, too_slow_);
-  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
+  solve_either_way(*this, *task.preset, task.h, too_slow_);
+  if (!stopped_) solved_ = both(solved_, judged_);
   return !stopped_;
 }
 
@@ -82,6 +82,7 @@ void DeviceSolver<R>::restore() {
   state_.copy(kept_.get(), state_.vector(task_.velocity));
   evaluate();
   arrive();
+  balance();
 }
 
 template <class R>
@@ -105,18 +106,22 @@ Balance DeviceSolver<R>::solve_stiff() {
                              [this](double part) { note_progress(part); }, alone},
       counts_);
   state_.unmap(c_x, c_x_rows), state_.unmap(c_v, c_v_rows), state_.unmap(x, x_rows), state_.unmap(v, v_rows);
-  if (!stopped_) evaluate(), arrive();
+  // What was found in double may be less well balanced in the precision in which it is kept.
+  if (!stopped_) evaluate(), arrive(), this->balance();
   return balance;
 }
 
 template <class R>
 Balance DeviceSolver<R>::balance() {
-  const cl_mem x = state_.vector(task_.position), residual = residual_.get();
-  R *const x_rows = state_.map(x, CL_MAP_READ), *const residual_rows = state_.map(residual, CL_MAP_READ);
-  const Balance balance = balance_of(
-      StageView<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, x_rows, residual_rows, state_.stride()});
+  const cl_mem x = state_.vector(task_.position), residual = residual_.get(), c_v = start_v_.get(),
+               v = away_ ? state_.other(task_.velocity) : state_.vector(task_.velocity);
+  R *const x_rows = state_.map(x, CL_MAP_READ), *const residual_rows = state_.map(residual, CL_MAP_READ),
+           *const v_rows = state_.map(v, CL_MAP_READ), *const c_v_rows = state_.map(c_v, CL_MAP_READ);
+  judged_ = balance_of(StageView<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, x_rows, v_rows, c_v_rows,
+                                    residual_rows, state_.stride()});
   state_.unmap(x, x_rows), state_.unmap(residual, residual_rows);
-  return balance;
+  state_.unmap(v, v_rows), state_.unmap(c_v, c_v_rows);
+  return judged_;
 }
 
 template <class R>

@@ -60,7 +60,7 @@ class DeviceSolver final : private implicit::EitherStage {
   const SolveCounts& counts() const { return counts_; }
   /// As of the CPU engine's solver.
   void begin_step() { solved_ = {true, 0}; }
-  /// The stages of the step: whether all are solved, and the largest residual.
+  /// The stages of the step together, as they are kept, in the precision of the state.
   const Balance& solved() const { return solved_; }
   std::size_t bytes() const;
 
@@ -131,6 +131,7 @@ class DeviceSolver final : private implicit::EitherStage {
   bool stopped_ = false;
   implicit::TooSlow too_slow_;
   Balance solved_{true, 0};
+  Balance judged_;     ///< of the present stage, by balance()
   bool away_ = false;  ///< a velocity is being tried
   double start_size_ = 0;
   int last_count_ = 16;  ///< iterations for the last system: about as many are likely again

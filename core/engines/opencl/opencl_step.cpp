@@ -148,7 +148,10 @@ StepMeasures OpenClEngine<R>::measures(int step) {
   StepMeasures result;
   result.elongation = max_elongation(report.way), result.dt = preset_.dt;
   result.left_inside = int(report.left_inside);
-  if (solver_) result.residual = solver_->solved().residual, result.converged = solver_->solved().solved;
+  if (solver_) {
+    const auto [solved, residual, rounded] = solver_->solved();
+    result.residual = residual, result.converged = solved, result.rounded = rounded;
+  }
   if (tears_each_) result.tear_budget = tear_slack(report), tears_unread_ |= report.torn != 0;
   if (held_.particle >= 0) {
     const R* f = hand_forces_.data() + 4 * std::size_t(step);
