@@ -138,7 +138,7 @@ void watch_dt(Session& session) {
   Preset next = session.preset();
   next.dt = *dt;
   apply_edit(session, edit::Change{next});
-  session.messages.note(next.integrator + " was adding energy: dt is halved to " + short_number(*dt) + " s.");
+  session.messages.note(next.integrator + " was adding energy: dt is halved to " + quantity(*dt, "s") + ".");
 }
 
 double clock_time(const Session& session) {

@@ -36,7 +36,7 @@ constexpr double settle_time = 0.3;          // s after an event
 std::string state_in_words(const Session& session) {
   const Preset& preset = session.preset();
   std::string words =
-      preset.name + ", " + std::string(scheme(preset.integrator).title) + ", dt " + short_number(preset.dt) + " s: ";
+      preset.name + ", " + std::string(scheme(preset.integrator).title) + ", dt " + quantity(preset.dt, "s") + ": ";
   if (const auto& divergence = session.simulation->divergence())
     return words + "diverged at t = " + short_number(divergence->t) + " s";
   return words +

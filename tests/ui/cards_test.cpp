@@ -306,7 +306,7 @@ TEST_CASE("the Energy card has the textbook's names, and says what a whole bar s
   window.click("plots.Energy");
   window.frames(3);
   for (const char* name : {"kinetic", "elastic, stretch", "gravitational potential", "total"}) CHECK(window.drew(name));
-  CHECK(window.drew("full bar 0.2 J"));  // ½ k x²
+  CHECK(window.drew("full scale 0.2 J"));  // ½ k x²
 }
 
 TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {

@@ -45,7 +45,7 @@ TEST_CASE("what is left of numbers that cancel is 0 in the picked particle's rea
   window.frames(2);
   const double F_s = window.cloth().particle(0, 0).F_s.y;
   REQUIRE(F_s != 0);
-  CHECK_FALSE(window.drew("e-15"));
+  CHECK_FALSE(window.drew("10⁻¹"));
 }
 
 TEST_CASE("dragging the slider of k_s changes k_s, and one undo takes the whole drag back") {
@@ -100,11 +100,11 @@ TEST_CASE("a value typed after Ctrl+click is taken; Escape, nonsense and values 
                "the gauge to say that dt is too long for it");
   window.type_value("k_s", "7", test::NullUi::escape);
   CHECK(window.preset().k_s == 310);
-  for (const auto& [text, message] : {std::pair{"abc", "not a number"},
-                                      {"1e12", "ranges from"},
+  for (const auto& [text, message] : {std::pair{"abc", "“abc” is not a number; k_s stays at 310 N/m."},
+                                      {"1e12", "N/m; it stays at 310 N/m."},
                                       {"-3", "ranges from"},
                                       {"nan", "not a number"},
-                                      {"1e999", "“1e999” is out of range; the value stays. Type one such as"}}) {
+                                      {"1e999", "“1e999” is out of range; k_s stays at 310 N/m."}}) {
     CAPTURE(text);
     window.type_value("k_s", text);
     CHECK(window.preset().k_s == 310);
@@ -328,9 +328,9 @@ TEST_CASE(
     CHECK(window.drew(words));
   };
   says("gauge_worst_case", "Line: the worst-case limit,");
-  says("gauge_this_cloth", "Dot: this cloth's own limit, as it hangs now");
+  says("gauge_this_cloth", "Dot: this cloth's own limit as it hangs now");
   says("gauge_every_shape", "is unstable in every shape in which a spring pulls");
-  says("gauge_dt", "of this cloth's own, as it hangs now.");
+  says("gauge_dt", "of this cloth's as it hangs now.");
   says("stability", "Stable in any shape: dt is");
 }
 

@@ -195,7 +195,7 @@ TEST_CASE("cards are gone through by keys; a preset with errors says what is wro
   window.key(GLFW_KEY_A, ctrl);
   window.type("zzz");
   window.frames(2);
-  CHECK(window.drew("Nothing has that name"));
+  CHECK(window.drew("No matches."));
   window.key(GLFW_KEY_A, ctrl);
   window.type("strip");
   window.frames(2);
