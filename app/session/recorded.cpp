@@ -50,7 +50,20 @@ void sample_height(Session& session, std::int64_t made) {
   to.height.add(t, row);
 }
 
+void sample_energy(Session& session) {
+  const auto reading = session.simulation->ledger();
+  if (!reading) return;
+  const Energy& now = reading->energy;
+  const std::array row{now.kinetic, now.stretch + now.bending, now.total() - reading->start, reading->unexplained()};
+  session.recorded.energy.add(session.simulation->time(), row);
+}
+
 }  // namespace
+
+void Recorded::go_on_from(double t) {
+  for (Series* series : {&forces, &height, &energy}) series->go_on_from(t);
+  std::erase_if(height_methods, [t](const auto& since) { return since.first > t; });
+}
 
 const Variable& variable(std::string_view key) {
   const auto list = variables();
@@ -78,6 +91,12 @@ std::vector<std::string> height_column_names() {
   return names;
 }
 
+std::vector<std::string> energy_column_names() {
+  std::vector<std::string> names;
+  for (std::string_view column : energy_columns) names.push_back(std::string(column) + " [J]");
+  return names;
+}
+
 std::vector<std::string> force_column_names() {
   std::vector<std::string> names;
   for (std::string_view key : force_keys) names.push_back(std::string(key) + " [N]");
@@ -96,12 +115,14 @@ void sample(Session& session) {
   if (made == 0) return;
   if (to.paused || !wants.forces) to.forces.interrupt();
   if (to.paused || !wants.height) to.height.interrupt();
+  if (to.paused || !wants.ledger) to.energy.interrupt();
   if (to.paused || !wants.copies) session.copies.distance.interrupt(), session.copies.energy.interrupt();
   if (to.paused) return;
   const FrameCosts::Timer timer(session.costs, Part::sample);
   if (wants.forces) sample_forces(session);
   if (wants.copies) sample_copies(session);
   if (wants.height) sample_height(session, made);
+  if (wants.ledger) sample_energy(session);
 }
 
 int steps_between_samples(const Session& session) {
@@ -130,6 +151,15 @@ void Series::add(double t, std::span<const double> values) {
   if (std::exchange(interrupted_, false)) gaps_.push_back(t_.size());
   t_.push_back(t);
   for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(values[k]);
+}
+
+void Series::go_on_from(double t) {
+  const auto kept = std::size_t(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin());
+  if (kept == t_.size()) return interrupt();
+  t_.resize(kept);
+  for (auto& column : columns_) column.resize(kept);
+  std::erase_if(gaps_, [kept](std::size_t gap) { return gap >= kept; });
+  interrupted_ = false;
 }
 
 void Series::clear() {

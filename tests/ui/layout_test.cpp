@@ -321,6 +321,15 @@ TEST_CASE("Ctrl and + or - change the size of text, Ctrl+0 brings it back, and a
   CHECK(height() == before);
 }
 
+TEST_CASE("panels that are hidden during a lab leave its name") {
+  test::NullUi window(options("hanging"));
+  begin_lab(window.session, "01_hooke");
+  window.frames(4);
+  window.key(GLFW_KEY_TAB);
+  window.frames(4);
+  CHECK(window.drew("Lab: " + window.session.labs.run->lab.title + " · Tab shows the panels"));
+}
+
 TEST_CASE("Tab hides the panels and brings them back; neither that nor a view changes the preset") {
   test::NullUi window(options("hanging"));
   const Box before = window.ui.viewport.box;
@@ -330,7 +339,8 @@ TEST_CASE("Tab hides the panels and brings them back; neither that nor a view ch
   window.frames(2);
   CHECK(window.ui.viewport.whole() == glm::vec2(1280, 720));
   CHECK_FALSE(window.sees("constants.k_s.slider"));
-  window.key(GLFW_KEY_TAB);
+  CHECK(window.drew("Tab shows the panels"));
+  window.click("viewport.show_panels");
   window.frames(2);
   CHECK(window.ui.viewport.box.lo == before.lo);
   CHECK(window.ui.viewport.box.hi == before.hi);

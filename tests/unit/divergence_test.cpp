@@ -337,6 +337,9 @@ TEST_CASE("no advice names a dt that is not allowed, or a method that is stable 
     CHECK(fixed->integrator == integrator);
   }
   CHECK(advice(stiff("euler", 1e4, 1e-2)).starts_with("Use Verlet with dt = "));
+  Preset bent = stiff("verlet", 50, 1e-3);
+  bent.k_b = 1e5;
+  CHECK(advice(bent).find("or a smaller k_b, and restart") != std::string::npos);
 }
 
 }  // namespace tyglab::divergence_test

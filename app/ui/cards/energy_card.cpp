@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "app/base/text.h"
+#include "app/ui/cards/cards.h"
+#include "app/ui/cards/time_plot.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 
@@ -12,7 +14,7 @@ namespace {
 
 constexpr const char* energy_heading = card_name::energy;
 constexpr std::string_view height_row = "gravitational potential", total_row = "total";
-constexpr float gap_at_1 = 7, restart_at_1 = 36;  // pixels at scale 1
+constexpr float gap_at_1 = 7, restart_at_1 = 36, curves_at_1 = 130;  // pixels at scale 1
 
 ImU32 color_of(const Tokens& c, double share) {
   return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
@@ -112,6 +114,24 @@ void since_line(Ui& ui, const LedgerReading& reading) {
   tooltip(ui, gui::item_id(), "Restarts the motion and counts from its start", "R");
 }
 
+/// The energies over time.
+void energy_curves(Ui& ui, ImVec2 size) {
+  const Tokens& c = ui.theme.colors;
+  const CurveStyle styles[] = {{c.blue, LineStyle::solid, 1.8f},
+                               {c.green, LineStyle::dashed, 1.8f},
+                               {c.text, LineStyle::solid, 1.2f},
+                               {c.vermilion, LineStyle::dotted, 2.2f}};
+  const Series& series = ui.session.recorded.energy;
+  std::vector<PlotCurve> curves;
+  for (std::size_t k = 0; k < energy_columns.size(); ++k) {
+    curves.push_back({energy_columns[k], styles[k], series.t(), series.column(k)});
+    curves.back().gaps = series.gaps();
+  }
+  const PlotFrame frame = time_frame(ui, series, false, "J", why_empty(ui));
+  zoom_time(ui, frame, draw_plot(ui, "energy plot", size, curves, frame));
+  report_control(ui, "energy_plot");
+}
+
 }  // namespace
 
 std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
@@ -142,7 +162,7 @@ float energy_card_height(const Ui& ui, float width) {
   const auto ledger = ui.session.simulation->ledger();
   const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
   const std::size_t lines = energy_rows({}).size() + (bar_column(ui, card_width(ui, width)).any ? 2 : 1);
-  return card_height(ui, energy_heading, float(lines) * card::line + 3 * gap_at_1 + button);
+  return card_height(ui, energy_heading, float(lines) * card::line + 4 * gap_at_1 + curves_at_1 + button);
 }
 
 void energy_card(Ui& ui, float height) {
@@ -162,6 +182,8 @@ void energy_card(Ui& ui, float height) {
       last = row.kind;
       energy_line(ui, row, *reading, full, unit, width);
     }
+    ImGui::Dummy({width, ui.theme.px(gap_at_1)});
+    energy_curves(ui, {width, ui.theme.px(curves_at_1)});
     ImGui::Dummy({width, ui.theme.px(gap_at_1)});
     since_line(ui, *reading);
   }

@@ -175,7 +175,6 @@ bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
   if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
   if (row.key == "iterations") return iterates(scheme(preset.integrator));
-  if (row.key == "gust" && preset.W == glm::dvec3(0)) return false;
   if (row.key == "gust_period" && !gusts(preset)) return false;
   return !row.only_one_kind || row.only == preset.kind;
 }

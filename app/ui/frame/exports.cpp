@@ -21,6 +21,10 @@ std::string forces(Ui& ui) {
   return series(ui, ui.session.recorded.forces, force_column_names());
 }
 
+std::string energies(Ui& ui) {
+  return series(ui, ui.session.recorded.energy, energy_column_names());
+}
+
 std::string height(Ui& ui) {
   return series(ui, ui.session.recorded.height, height_column_names());
 }
@@ -82,6 +86,9 @@ void map_picture(Ui& ui, const std::filesystem::path& file) {
 constexpr const char* rows_of_frames =
     "One row per drawn frame in the plot: t and a column for each curve, units in the header.";
 
+std::string no_energies(const Ui& ui) {
+  return ui.session.recorded.energy.empty() ? "No energies have been recorded: open the Energy card and run." : "";
+}
 std::string export_no_weight(const Ui& ui) {
   return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
 }
@@ -108,6 +115,8 @@ std::vector<CommandRow> export_rows() {
   };
   add("export_forces", "Export forces as CSV…", "write plot series",
       {"Export forces as CSV", rows_of_frames, "forces.csv", text_file<forces>});
+  add("export_energy", "Export energies as CSV…", "write plot series kinetic elastic ledger",
+      {"Export energies as CSV", rows_of_frames, "energy.csv", text_file<energies>}, no_energies);
   add("export_height", "Export height as CSV…", "write plot series weight mass",
       {"Export height as CSV", rows_of_frames, "height.csv", text_file<height>}, export_no_weight);
   add("export_map", "Export map as CSV…", "write stability",

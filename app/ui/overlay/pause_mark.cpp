@@ -1,9 +1,12 @@
-// PAUSED, with the keys that continue; or REPLAY, with the replayed steps and their speed.
+// PAUSED, with the keys that continue; or REPLAY, with the replayed steps and their speed; and what is hidden.
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 
 #include "app/base/text.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 
@@ -79,6 +82,32 @@ void pause_mark(Ui& ui, ImDrawList& draw, const Box& row) {
   draw_on_baseline(draw, bold, {box.lo.x + pad, baseline}, c.text, word);
   if (box.hi.x - box.lo.x > brief.x)
     draw_on_baseline(draw, text, {box.lo.x + word_width + 2 * pad, baseline}, c.quiet, how);
+}
+
+void hidden_panels_mark(Ui& ui, ImDrawList& draw) {
+  if (ui.panels || !ui.panels_hidden) return;
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.small;
+  const float pad = ui.theme.px(10), margin = ui.theme.px(16);
+  const std::string how = ui.input.by_touch ? "Show the panels" : "Tab shows the panels";
+  const auto& lab = ui.session.labs.run;
+  std::string words = (lab ? "Lab: " + lab->lab.title + " · " : "") + how;
+  if (text_width(font, words) + 2 * (pad + margin) > ui.viewport.whole().x) words = how;
+  const glm::vec2 size = glm::ceil(glm::vec2(text_width(font, words) + 2 * pad, font.FontSize + pad));
+  const Box area{ui.viewport.box.lo + margin, ui.viewport.box.hi - margin};
+  std::optional<Box> box;
+  for (const ScreenCorner corner : {ScreenCorner::lower_left, ScreenCorner::lower_right, ScreenCorner::upper_right})
+    if (!box) box = ui.placing.in_corner(area, size, corner);
+  if (!box) return;
+  ui.placing.take("hidden_panels", *box);
+  cover_viewport(ui, vec(box->lo), vec(box->hi));
+  ImGui::SetCursorScreenPos(vec(box->lo));
+  if (gui::press_area("show_panels", vec(size))) ui.command("toggle_panels");
+  report_control(ui, "show_panels");
+  const bool hovered = ImGui::IsItemHovered();
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), hovered ? c.field_hover : faded(c.panel, 0.85f), ui.theme.px(6));
+  draw_on_baseline(draw, font, {box->lo.x + pad, baseline_at(ui.fonts, (box->lo.y + box->hi.y) / 2)},
+                   hovered ? c.text : c.quiet, words);
 }
 
 }  // namespace tyglab

@@ -187,6 +187,7 @@ struct Ui : UiContext {
   bool help = false;
   float help_needs = 0;              ///< height of what F1 shows, px; 0: not known yet
   bool panels = true;                ///< Tab hides them all
+  bool panels_hidden = false;        ///< by the user, who is told how to get them back
   bool presenting = false;           ///< a large cloth over a few large controls, and one card, in place of the panels
   bool presented_card = true;        ///< whether that card is there
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
