@@ -163,6 +163,29 @@ TEST_CASE("a double click on a number lets one type it, also while its slider ha
   CHECK(window.session.quit);
 }
 
+TEST_CASE("methods are listed in groups, the report's first, with order and limit, and chosen by pointer or keys") {
+  test::NullUi window;
+  window.pause();
+  window.click("constants.integrator");
+  window.frames(3);
+  for (const char* words : {"IN THE REPORT", "EXPLICIT", "IMPLICIT", "AS IN GAMES", "order", "dt at most"})
+    CHECK(window.drew(words));
+  const auto y = [&](const std::string& method) { return window.control("menu." + method).lo.y; };
+  CHECK(y("euler") < y("verlet"));
+  CHECK(y("verlet") < y("rk4"));
+  CHECK(y("rk4") < y("implicit_euler"));
+  CHECK(y("implicit_euler") < y("xpbd"));
+  window.key(GLFW_KEY_DOWN);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK(window.preset().integrator == "semi_implicit_euler");  // after verlet
+  CHECK_FALSE(window.ui.methods.open);
+  window.click("constants.integrator");
+  window.frames(3);
+  window.click("menu.implicit_midpoint");
+  CHECK(window.preset().integrator == "implicit_midpoint");
+}
+
 TEST_CASE("a click anywhere on a message takes it away") {
   test::NullUi window;
   window.type_value("k_s", "abc");

@@ -130,6 +130,15 @@ struct CommandPalette {
   bool enter = false;   ///< Enter was pressed
 };
 
+/// The list of methods, while it is open.
+struct MethodList {
+  bool open = false;
+  std::vector<std::string> limits;  ///< of dt, as it says them
+  int selected = 0;
+  int go = 0;          ///< methods to go down, by the keys of this frame
+  bool enter = false;  ///< Enter was pressed
+};
+
 /// The cards that show a newcomer round.
 struct Tour {
   int card = -1;                     ///< none while below 0
@@ -177,6 +186,7 @@ struct Ui : UiContext {
   /// Pressed after a key of which it depends what they do: after the palette's Enter, or what opens a field.
   std::vector<KeyEvent> later_keys;
   CommandPalette palette;
+  MethodList methods;
   std::vector<PaletteEntry> menu;  ///< what the menu holds beside commands, since it was opened
   Tour tour;
   Plots plots;
