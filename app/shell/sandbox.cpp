@@ -193,7 +193,7 @@ Document Sandbox::first_document() {
 
 bool Sandbox::idle() const {
   return session_.idle() && !session_.scripted && busy_frames_ <= 0 && window_time() >= settle_until_ &&
-         ui_.actions.empty() && tools_.tool.kind == Tool::Kind::none;
+         ui_.actions.empty() && !ui_.film && tools_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
@@ -304,9 +304,10 @@ void Sandbox::save_picture() {
   try {
     write_png(wanted.file, image);
     hand_out(wanted.file);
-    session_.messages.note("Wrote " + wanted.file.string());
+    if (!ui_.film) session_.messages.note("Saved " + wanted.file.string());
   } catch (const OutputError& error) {
     session_.messages.error(error.what());
+    ui_.film.reset();
   }
 }
 
@@ -321,7 +322,7 @@ void Sandbox::frame() {
 
 void Sandbox::frame_parts() {
   const double now = window_time();
-  const double elapsed = session_.scripted ? scripted_frame : now - last_time_;
+  const double elapsed = direct_film(ui_).value_or(session_.scripted ? scripted_frame : now - last_time_);
   // Events carry the time at which they were polled, so two clicks of one gesture may be a frame apart.
   input_.double_click_s = std::max(0.4, 1.5 * (now - last_time_));
   last_time_ = now;

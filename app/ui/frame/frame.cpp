@@ -65,6 +65,25 @@ void act_on_events(Ui& ui, double elapsed, double frame_time) {
   color_copies(ui);
 }
 
+std::optional<double> direct_film(Ui& ui) {
+  if (!ui.film) return std::nullopt;
+  FilmOrder& film = *ui.film;
+  Session& session = ui.session;
+  if (film.frame == film.count || session.simulation->divergence()) {
+    ui.messages.note("Exported " + std::to_string(film.frame) + (film.frame == 1 ? " image" : " images") + " to " +
+                     film.folder.string() + ", " + std::to_string(FilmOrder::fps) + " per second.");
+    ui.film.reset();
+    return std::nullopt;
+  }
+  if (!session.pacing.playing || session.background_steps.busy() || session.rebuild.busy()) return 0;
+  const double t = session.simulation->time(), dt = session.preset().dt;
+  if (film.frame == 0 || t > film.next_t + 1) film.next_t = t;  // or it has been brought elsewhere
+  if (t < film.next_t - dt / 2 && !session.asleep()) return (film.next_t - t) / session.pacing.aim();
+  ui.picture = {film.folder / frame_name(session.document.label, film.frame, film.count, "png"), false};
+  ++film.frame, film.next_t += session.pacing.aim() / FilmOrder::fps;
+  return 0;
+}
+
 void draw_panels(Ui& ui) {
   SliderState& slider = ui.slider;
   slider.order = 0;

@@ -79,7 +79,7 @@ struct Gallery {
 
 /// A question or a file dialog over everything else.
 struct Dialog {
-  enum class Kind { none, start, open, save, write_export, texture, picture, unsaved, large_cloth };
+  enum class Kind { none, start, open, save, write_export, texture, picture, film, unsaved, large_cloth };
   Kind kind = Kind::none;
   bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
@@ -92,6 +92,7 @@ struct Dialog {
   bool overwrite = false;                 ///< the file exists, and the user is asked
   bool first_start = false;               ///< of start: there is nothing yet to continue with
   bool whole_window = false;              ///< of picture
+  char seconds[16] = "10";                ///< of film, as it is typed
   const CommandRow* exporting = nullptr;  ///< of write_export
   std::optional<Request> then;            ///< of a question: what follows a yes
   std::string question;
@@ -163,6 +164,14 @@ struct PictureOrder {
   bool whole_window = false;
 };
 
+/// A film of the viewport: a numbered PNG for each 25th of a second that the window would show.
+struct FilmOrder {
+  static constexpr int fps = 25;
+  std::filesystem::path folder;
+  std::int64_t count = 0, frame = 0;  ///< images, and those that have been ordered
+  double next_t = 0;                  ///< s, simulated, of the next one
+};
+
 /// What a lab has opened of the plots' column: closed again when it ends. What was open before is not among it.
 struct LabCards {
   std::set<std::string> unfolded;  ///< cards, by their names
@@ -219,6 +228,7 @@ struct Ui : UiContext {
   bool side_cloth = true;        ///< where not even one has room beside the cloth: the cloth is shown, and neither
 
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
+  std::optional<FilmOrder> film;        ///< that is being exported
   bool full_screen = false;             ///< as the window is
   bool toggle_full_screen = false;
   bool scale_changed = true;  ///< fonts are to be built again
