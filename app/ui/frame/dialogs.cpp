@@ -265,6 +265,28 @@ void film_dialog(Ui& ui) {
   ui.session.pacing.playing = true;
 }
 
+void course_page_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Course page");
+  wrapped(ui, "The address of the Tyglab page that your students use. Copied links and embed code begin with it.",
+          ui.theme.colors.quiet);
+  label(ui, "Address; empty for none");
+  if (path_field(ui, ImGui::IsWindowAppearing())) dialog.problem.clear();
+  problem(ui);
+  const bool go = text_button(ui, "Keep", true) || dialog.enter;
+  ImGui::SameLine();
+  if (text_button(ui, "Cancel")) return close(ui);
+  if (!go) return;
+  std::string address(trimmed(dialog.path));
+  address.resize(std::min(address.find_first_of("?#"), address.size()));  // a link was pasted
+  if (!address.empty() && (address[0] == '#' || !is_link(address)))
+    return refuse(dialog, "An address begins with https:// or http://.");
+  if (address.find_first_of("\"<> ") != std::string::npos)
+    return refuse(dialog, "An address has no spaces and quotes.");
+  ui.settings.course_page = std::move(address);
+  close(ui);
+}
+
 void texture_dialog(Ui& ui) {
   Dialog& dialog = ui.dialog;
   title(ui, "Use image as texture");
@@ -363,6 +385,8 @@ void contents(Ui& ui) {
       return picture_dialog(ui);
     case DialogKind::film:
       return film_dialog(ui);
+    case DialogKind::course_page:
+      return course_page_dialog(ui);
     case DialogKind::unsaved:
       return unsaved_dialog(ui);
     case DialogKind::large_cloth:
@@ -400,6 +424,8 @@ void open_dialog(Ui& ui, DialogKind kind) {
     dialog.path_follows = true;
   } else if (kind == DialogKind::picture) {
     set(dialog.path, (here / (ui.session.document.label + ".png")).string());
+  } else if (kind == DialogKind::course_page) {
+    set(dialog.path, ui.settings.course_page);
   } else if (kind == DialogKind::film) {
     set(dialog.path, (here / (ui.session.document.label + "_film")).string());
   } else if (kind == DialogKind::write_export) {

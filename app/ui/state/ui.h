@@ -79,7 +79,7 @@ struct Gallery {
 
 /// A question or a file dialog over everything else.
 struct Dialog {
-  enum class Kind { none, start, open, save, write_export, texture, picture, film, unsaved, large_cloth };
+  enum class Kind { none, start, open, save, write_export, texture, picture, film, course_page, unsaved, large_cloth };
   Kind kind = Kind::none;
   bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
