@@ -300,7 +300,8 @@ TEST_CASE("quitting asks while changes are unsaved; Escape stays, Save saves fir
 TEST_CASE("copied links begin with the course's page once its address is set") {
   test::NullUi window;
   window.pause();
-  window.find("copy embed code");
+  window.ui.command("copy_embed_code");
+  window.frames(2);
   CHECK(window.said("Set the address of your Tyglab page first"));
   window.find("copy link");
   CHECK(std::string(ImGui::GetClipboardText()) == "#hanging");
