@@ -15,6 +15,7 @@
 #include "app/session/document.h"
 #include "app/session/lab_state.h"
 #include "app/shell/start.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/frame/frame.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
@@ -111,6 +112,9 @@ Sandbox::Sandbox(const SandboxOptions& options)
       gui_(window_) {
   session_.costs.started(StartPart::window);
   window_.wait_for_screen(!session_.scripted);
+  constexpr int tall = 1000;  // px at scale 1: one more card has room beside the plots
+  if (settings_.layout == Layout() && float(window_.size().y) >= tall * window_.content_scale())
+    settings_.layout.folded.erase(card_name::stability);
   scene_.renderer = std::make_unique<ClothRenderer>();
   session_.costs.started(StartPart::shaders);
   start_preset();
