@@ -93,6 +93,7 @@ void draw_panels(Ui& ui) {
   if (std::exchange(ui.pointer_before, ui.input.at) != ui.input.at) ui.keys_since_move = false;
   if (!ui.input.keys.empty()) ui.keys_since_move = true;
   ui.covered = ui.help;
+  ui.methods.open = false;  // until it is drawn
   draw_layout(ui, ImGui::GetIO().DisplaySize);
   // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
   if (!slider.focused_seen || ui.tools.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;
