@@ -321,6 +321,19 @@ TEST_CASE("Ctrl and + or - change the size of text, Ctrl+0 brings it back, and a
   CHECK(height() == before);
 }
 
+TEST_CASE("the cloth has six tenths of a window of 1280 pixels, until a column is dragged wider") {
+  for (const char* theme : {"dark", "light"}) {
+    test::NullUi window(options("hanging", 1, theme));
+    const auto width = [&] { return window.ui.viewport.whole().x; };
+    CHECK(width() >= 0.6f * 1280);
+    const float before = width();
+    const glm::vec2 border{window.ui.viewport.box.lo.x, 400};
+    window.drag({border, border + glm::vec2(40, 0)});
+    window.frames(3);
+    CHECK(width() == doctest::Approx(before - 40).epsilon(0.01));
+  }
+}
+
 TEST_CASE("panels that are hidden during a lab leave its name") {
   test::NullUi window(options("hanging"));
   begin_lab(window.session, "01_hooke");
