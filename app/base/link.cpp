@@ -11,7 +11,6 @@
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {

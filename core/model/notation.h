@@ -2,8 +2,8 @@
 // read it; a new constant is one field in preset.h and one row in notation.cpp.
 #pragma once
 
-#include <cstdint>
 #include <charconv>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>

@@ -5,7 +5,6 @@
 
 #include "app/base/text.h"
 #include "app/ui/cards/cards.h"
-#include "app/ui/cards/time_plot.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 

@@ -15,7 +15,6 @@
 #include "core/forces/contact.h"
 #include "core/integrators/scheme.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {

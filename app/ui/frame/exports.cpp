@@ -1,9 +1,10 @@
 // Files that the window can export, one row each.
 #include <array>
 
-#include "app/platform/files.h"
+#include "app/platform/platform.h"
 #include "app/session/recorded.h"
 #include "app/ui/frame/commands.h"
+#include "app/ui/frame/panels.h"
 #include "app/ui/kit/chart.h"
 #include "core/analysis/machine.h"
 #include "core/io/output_file.h"

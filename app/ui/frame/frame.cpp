@@ -7,6 +7,7 @@
 
 #include "app/ui/frame/panels.h"
 #include "app/ui/state/ui.h"
+#include "core/output/obj.h"
 
 namespace tyglab {
 namespace {
