@@ -41,8 +41,8 @@ Ledger::Source source_of(const Edit& edit) {
 /// Of a motion that is beyond what the scene can hold.
 std::string cause_of_runaway(const AdvanceResult& part, const Preset& preset) {
   if (part.quantity == "position")
-    return "a particle is farther away than " + sources_of_energy(preset) + " the energy to fly";
-  return "the motion has " + short_number(part.excess, 2) + " times the energy that " + sources_of_energy(preset);
+    return "a particle is farther away than the energy the scene can supply could throw it";
+  return excess_in_words(part.excess, preset);
 }
 
 }  // namespace
@@ -432,8 +432,7 @@ void Simulation::diverge(const AdvanceResult& part) {
                                                  std::string(preset_.W != glm::dvec3(0) ? " and wind" : "") +
                                                  (preset_.bodies.empty() ? "; " : ", let alone what bodies push; ")
                                            : ": the spring is too weak for m·g; ";
-    d.cause +=
-        std::string(scheme(preset_.integrator).title) + " is stable here at dt = " + short_number(preset_.dt) + " s";
+    d.cause += std::string(scheme(preset_.integrator).title) + " is stable here at dt = " + quantity(preset_.dt, "s");
     d.advice = advice_for_weak_springs(preset_);
   } else {
     d.cause += ": " + method_to_blame(preset_);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "app/base/files.h"
 #include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {
@@ -62,6 +65,13 @@ std::string encoded(std::string_view text) {
   return link;
 }
 
+/// As an attribute of HTML has it.
+std::string escaped(const std::string& link) {
+  std::string text;
+  for (const char letter : link) text += letter == '&' ? "&amp;" : std::string(1, letter);
+  return text;
+}
+
 bool is_shipped_preset(const std::string& name) {
   const std::vector<std::string> names = shipped_presets();
   return std::binary_search(names.begin(), names.end(), name);
@@ -86,6 +96,21 @@ std::string scheme_of(std::string_view text) {
     cure = "Open the file by its path: " +
            cited(decoded(address.substr(std::min(address.find('/', 7), address.size())), address), 200) + ".";
   throw PresetError("The address " + cited(address, 200) + " holds no experiment. " + cure);
+}
+
+/// Without the last bits that sums leave: 0.2325 in place of 0.23249999999999998.
+double without_noise(double value) {
+  constexpr int digits = 12;
+  constexpr double noise = 4 * std::numeric_limits<double>::epsilon();
+  const double plain = rounded(value, digits);
+  return std::abs(plain - value) <= noise * std::abs(value) ? plain : value;
+}
+
+template <class T>
+void drop_noise(const FieldOf<T>& field, T& of) {
+  if (const auto* number = std::get_if<double T::*>(&field)) of.** number = without_noise(of.**number);
+  if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field))
+    for (int k = 0; k < 3; ++k) (of.**vector)[k] = without_noise((of.**vector)[k]);
 }
 
 /// The preset that an address names before its #, as in ?embed&preset=flag&panels=0; empty if it names none. Where no #
@@ -160,9 +185,17 @@ std::string link_to(const Preset& preset, const std::string& label) {
   const Preset from = read_preset(find_preset(name).file);
   Preset to = preset;
   if (!to.texture.empty() && !is_shipped_texture(to.texture)) to.texture = from.texture;
+  for (const PresetRow& row : notation()) drop_noise(row.field, to);
+  for (const BodyRow& row : body_notation())
+    for (Body& body : to.bodies) drop_noise(row.field, body);
   std::string link = "#" + encoded(name);
   for (const std::string& setting : settings_between(from, to)) link += "&" + encoded(setting);
   return link;
+}
+
+std::string embed_code(const std::string& address, const std::string& link, const std::string& lab) {
+  const std::string what = lab.empty() ? "?embed" + escaped(link) : "?embed&amp;lab=" + encoded(lab);
+  return "<iframe width=\"900\" height=\"640\" src=\"" + address + what + "\"></iframe>";
 }
 
 }  // namespace tyglab

@@ -13,7 +13,7 @@ namespace {
 std::string print(const char* format, int precision, double value) {
   char text[48];
   std::snprintf(text, sizeof text, format, precision, value);
-  return short_exponent(text);
+  return with_power(short_exponent(text));
 }
 
 }  // namespace
@@ -61,6 +61,20 @@ std::string plain_unit(std::string_view unit) {
   return plain;
 }
 
+/// "1.2·10⁻⁴", as read-outs have it, as "1.2e-4".
+std::string with_exponent(std::string text) {
+  static constexpr std::array<std::string_view, 11> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹", "⁻"};
+  constexpr std::string_view power = "·10";
+  std::size_t at = text.find(power);
+  if (at == std::string::npos) return text;
+  text.replace(at, power.size(), "e");
+  for (++at; at < text.size(); ++at)
+    for (std::size_t n = 0; n < raised.size(); ++n)
+      if (text.compare(at, raised[n].size(), raised[n]) == 0)
+        text.replace(at, raised[n].size(), n < 10 ? std::to_string(n) : "-");
+  return text;
+}
+
 /// What a number in the unit `typed` is in `unit`, as a factor.
 std::optional<double> factor_of(std::string_view typed, std::string_view unit) {
   struct Prefix {
@@ -81,7 +95,7 @@ std::optional<double> factor_of(std::string_view typed, std::string_view unit) {
 }  // namespace
 
 std::optional<double> typed_number(std::string_view text, std::string_view unit) {
-  std::string plain(text);
+  std::string plain = with_exponent(std::string(text));
   std::replace(plain.begin(), plain.end(), ',', '.');
   const std::size_t start = plain.find_first_not_of(" \t+");
   if (start == std::string::npos) return std::nullopt;

@@ -154,6 +154,7 @@ Settings settings_from(const JsonNode& root) {
   all.take("all_effects", settings.all_effects);
   all.take("tour_seen", settings.tour_seen);
   all.take("cut_told", settings.cut_told);
+  all.take("course_page", settings.course_page);
   all.take("recent", settings.recent);
   all.take("labs", settings.labs);
   section("layout", [&](const Section& layout) { settings.layout = layout_from(layout); });
@@ -212,6 +213,7 @@ Json to_json(const Settings& settings) {
   json["all_effects"] = settings.all_effects;
   json["tour_seen"] = settings.tour_seen;
   json["cut_told"] = settings.cut_told;
+  json["course_page"] = settings.course_page;
   json["recent"] = settings.recent;
   json["labs"] = settings.labs;
   const Layout& layout = settings.layout;

@@ -51,6 +51,7 @@ struct Settings {
   std::string color;                ///< name of the field that colors the cloth; empty: none
   bool tour_seen = false;           ///< or the start page, which leads to it
   bool cut_told = false;            ///< what the first cut says beside the pointer
+  std::string course_page;          ///< address of the page that copied links begin with; empty: none
   std::vector<std::string> recent;  ///< files of presets that were opened or saved, the newest first
   std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<LastSession> session;

@@ -38,14 +38,16 @@ LinkedPreset read_link(std::string_view text);
 Preset linked_preset(const LinkedPreset& link);
 
 /// The link to these constants. `label`: of the shipped preset that they were made from, or anything else. Its texture
-/// is named only where it is shipped.
+/// is named only where it is shipped; numbers are without the noise of their last bits.
 std::string link_to(const Preset& preset, const std::string& label);
+/// HTML that shows a link of the page at `address` in a frame; `lab`: the lab's, empty: none.
+std::string embed_code(const std::string& address, const std::string& link, const std::string& lab);
 
 // Formats and reads numbers in panels; short_number of notation.h formats constants.
 
-/// A read-out that does not dance: always three significant digits, "3.41e-3", "12.0".
+/// A read-out that does not dance: always three significant digits, "3.41·10⁻³", "12.0".
 std::string steady_number(double value);
-/// "(1.00, -2.50e-3, 0)": each as steady_number.
+/// "(1.00, -2.50·10⁻³, 0)": each as steady_number.
 std::string steady_vector(const glm::dvec3& value);
 /// A simulated time, with as many decimals as show a single step of dt (three at least): "0.4213".
 std::string time_number(double t, double dt);

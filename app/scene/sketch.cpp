@@ -17,6 +17,7 @@ namespace {
 constexpr glm::vec2 picture{SceneSketch::aspect, 1};
 constexpr int most_side = 32, most_quads = 24;  // particles that move, and quads that are drawn, along a side
 constexpr double seconds = 0.8;                 // after the start a scene shows what it is about
+constexpr double settles = 4;                   // s, in which a cloth that only hangs comes nearly to rest
 constexpr int most_steps = 4000, at_once = 10;
 
 /// With fewer particles, each of which stands for more of the cloth: as far as its constants allow.
@@ -121,7 +122,8 @@ SceneSketch sketch_of(const Preset& preset, const Stop& stop) {
   Simulation simulation(coarse(preset));
   simulation.stop_when(stop);
   Grid grid = read_grid(simulation);
-  for (int steps = 0; steps < most_steps && simulation.time() < seconds; steps += at_once) {
+  const bool hangs = preset.pins.mode != Pins::Mode::none && preset.bodies.empty() && preset.F_max == 0;
+  for (int steps = 0; steps < most_steps && simulation.time() < (hangs ? settles : seconds); steps += at_once) {
     simulation.advance(at_once);
     if (stop() || simulation.divergence()) break;  // of one that diverges the last whole look is shown
     grid = read_grid(simulation);

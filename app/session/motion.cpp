@@ -14,7 +14,7 @@ constexpr double rewinds_s = 1;
 void go_on_from_here(Session& session) {
   copies_resume(session);
   ++session.counts.hands;
-  session.recorded.clear();
+  session.recorded.go_on_from(session.simulation->time());
   session.pacing.restart_measure();
 }
 
@@ -128,7 +128,12 @@ void toggle_auto_dt(Session& session) {
     return;
   }
   next.dt = *dt;
-  if (next == session.requested_preset() || apply_edit(session, edit::Change{next})) session.auto_dt.emplace();
+  const bool same = next == session.requested_preset();
+  if (!same && !apply_edit(session, edit::Change{next})) return;
+  session.auto_dt.emplace();
+  const bool limited = has_step_limit(scheme(next.integrator)) && !is_implicit(scheme(next.integrator));
+  session.messages.note("dt " + std::string(same ? "stays at " : "is now ") + quantity(*dt, "s") +
+                        (limited ? ", 0.8 of the worst-case limit at most," : "") + " and follows the constants.");
 }
 
 void watch_dt(Session& session) {
@@ -141,7 +146,7 @@ void watch_dt(Session& session) {
   Preset next = session.preset();
   next.dt = *dt;
   apply_edit(session, edit::Change{next});
-  session.messages.note(next.integrator + " was adding energy: dt is halved to " + short_number(*dt) + " s.");
+  session.messages.note(next.integrator + " was adding energy: dt is halved to " + quantity(*dt, "s") + ".");
 }
 
 double clock_time(const Session& session) {

@@ -49,7 +49,20 @@ void sample_height(Session& session, std::int64_t made) {
   to.height.add(t, row);
 }
 
+void sample_energy(Session& session) {
+  const auto reading = session.simulation->ledger();
+  if (!reading) return;
+  const Energy& now = reading->energy;
+  const std::array row{now.kinetic, now.stretch + now.bending, now.total() - reading->start, reading->unexplained()};
+  session.recorded.energy.add(session.simulation->time(), row);
+}
+
 }  // namespace
+
+void Recorded::go_on_from(double t) {
+  for (Series* series : {&forces, &height, &energy}) series->go_on_from(t);
+  std::erase_if(height_methods, [t](const auto& since) { return since.first > t; });
+}
 
 const Variable& variable(std::string_view key) {
   const auto list = variables();
@@ -74,6 +87,12 @@ glm::dvec3 vector_of(const ParticleReadout& r, std::string_view key) {
 std::vector<SeriesColumn> height_columns() {
   std::vector<SeriesColumn> columns{{"y", "m"}};
   for (std::string_view curve : ReferenceCurves::curves) columns.push_back({"y_" + std::string(curve), "m"});
+  return columns;
+}
+
+std::vector<SeriesColumn> energy_column_list() {
+  std::vector<SeriesColumn> columns;
+  for (std::string_view column : energy_columns) columns.push_back({std::string(column), "J"});
   return columns;
 }
 
@@ -105,12 +124,14 @@ void sample(Session& session) {
   if (made == 0) return;
   if (to.paused || !wants.forces) to.forces.interrupt();
   if (to.paused || !wants.height) to.height.interrupt();
+  if (to.paused || !wants.ledger) to.energy.interrupt();
   if (to.paused || !wants.copies) session.copies.distance.interrupt(), session.copies.energy.interrupt();
   if (to.paused) return;
   const FrameCosts::Timer timer(session.costs, Part::sample);
   if (wants.forces) sample_forces(session);
   if (wants.copies) sample_copies(session);
   if (wants.height) sample_height(session, made);
+  if (wants.ledger) sample_energy(session);
 }
 
 int steps_between_samples(const Session& session) {
@@ -139,6 +160,15 @@ void Series::add(double t, std::span<const double> values) {
   if (std::exchange(interrupted_, false)) gaps_.push_back(t_.size());
   t_.push_back(t);
   for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(values[k]);
+}
+
+void Series::go_on_from(double t) {
+  const auto kept = std::size_t(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin());
+  if (kept == t_.size()) return interrupt();
+  t_.resize(kept);
+  for (auto& column : columns_) column.resize(kept);
+  std::erase_if(gaps_, [kept](std::size_t gap) { return gap >= kept; });
+  interrupted_ = false;
 }
 
 void Series::clear() {

@@ -1,4 +1,4 @@
-// Samples for the plots of the forces and of a weight's height, recorded while a plot needs them.
+// Samples for the plots of the forces, of the energies and of a weight's height, recorded while a plot needs them.
 #pragma once
 
 #include <array>
@@ -31,6 +31,9 @@ class Series {
   void interrupt() { interrupted_ = !t_.empty(); }
   /// Samples before which there is a gap, ascending.
   std::span<const std::size_t> gaps() const { return gaps_; }
+  /// The motion goes on from that time, s: later samples are of a motion that is gone, and before it begins where there
+  /// are none there is a gap.
+  void go_on_from(double t);
   void clear();
   std::size_t bytes() const { return t_.capacity() * sizeof(double) * (1 + columns_.size()); }
   /// Text of a CSV file as `tyglab run --series` writes it.
@@ -53,15 +56,20 @@ struct Recorded {
   bool paused = false;
   std::int64_t sampled = 0;                                    ///< of Session::steps_made, those with a sample
   Series forces{forces_count};                                 ///< N, by force_keys
+  Series energy{4};                                            ///< J, by energy_columns
   Series height{5};                                            ///< m, of the weight, then by ReferenceCurves::curves
   std::vector<std::pair<double, std::string>> height_methods;  ///< from which t on (s) which method moved the weight
 
-  void clear() { forces.clear(), height.clear(); }
+  void clear() { forces.clear(), height.clear(), energy.clear(); }
+  /// The motion goes on from that time (Series::go_on_from).
+  void go_on_from(double t);
 };
 
 /// Keys of the plotted forces, in the order of Recorded::forces' columns.
 inline constexpr std::array<std::string_view, Recorded::forces_count> force_keys{"F",   "F_s",   "F_b",  "F_d",
                                                                                  "F_g", "F_int", "F_ext"};
+/// Curves of the energies, in the order of Recorded::energy's columns. "by method": what it added, below 0 removed.
+inline constexpr std::array<std::string_view, 4> energy_columns{"kinetic", "elastic", "total change", "by method"};
 const Variable& variable(std::string_view key);
 /// A variable of table B.1 by its key in the notation table, in its own unit.
 glm::dvec3 vector_of(const ParticleReadout& readout, std::string_view key);
@@ -70,6 +78,8 @@ glm::dvec3 vector_of(const ParticleReadout& readout, std::string_view key);
 std::vector<SeriesColumn> force_columns(Source source);
 /// y, y_euler, … of Recorded::height.
 std::vector<SeriesColumn> height_columns();
+/// kinetic, … of Recorded::energy.
+std::vector<SeriesColumn> energy_column_list();
 
 struct Session;
 /// What the force plot follows: of a weight the weight, whatever was chosen for cloths.

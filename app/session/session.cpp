@@ -179,7 +179,7 @@ void Session::warn_of(const AdvanceResult& advance) {
     messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
     warned_left_inside = true;
   }
-  std::string missed = solves_missed(simulation->engine().solves(), simulation->preset());
+  std::string missed = solves_missed(simulation->engine().solves(), simulation->steps(), simulation->preset());
   if (missed.empty()) missed = tolerance_missed(simulation->preset(), simulation->engine().inner_steps());
   if (!missed.empty() && !warned_unconverged) {
     messages.warning(missed);

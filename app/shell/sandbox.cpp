@@ -17,6 +17,7 @@
 #include "app/session/lab_state.h"
 #include "app/session/motion.h"
 #include "app/shell/start.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/frame/frame.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
@@ -103,6 +104,9 @@ Sandbox::Sandbox(const SandboxOptions& options)
       gui_(window_) {
   session_.costs.started(StartPart::window);
   window_.wait_for_screen(!session_.scripted);
+  constexpr int tall = 1000;  // px at scale 1: one more card has room beside the plots
+  if (settings_.layout == Layout() && float(window_.size().y) >= tall * window_.content_scale())
+    settings_.layout.folded.erase(card_name::stability);
   scene_.renderer = std::make_unique<ClothRenderer>();
   session_.costs.started(StartPart::shaders);
   start_preset();
@@ -186,7 +190,7 @@ Document Sandbox::first_document() {
 
 bool Sandbox::idle() const {
   return session_.idle() && !session_.scripted && busy_frames_ <= 0 && window_time() >= settle_until_ &&
-         ui_.actions.empty() && tools_.tool.kind == Tool::Kind::none;
+         ui_.actions.empty() && !ui_.film && tools_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
@@ -306,9 +310,10 @@ void Sandbox::save_picture() {
   try {
     write_png(wanted.file, image);
     hand_out(wanted.file);
-    session_.messages.note("Wrote " + wanted.file.string());
+    if (!ui_.film) session_.messages.note("Saved " + wanted.file.string());
   } catch (const OutputError& error) {
     session_.messages.error(error.what());
+    ui_.film.reset();
   }
 }
 
@@ -323,7 +328,7 @@ void Sandbox::frame() {
 
 void Sandbox::frame_parts() {
   const double now = window_time();
-  const double elapsed = session_.scripted ? scripted_frame : now - last_time_;
+  const double elapsed = direct_film(ui_).value_or(session_.scripted ? scripted_frame : now - last_time_);
   // Events carry the time at which they were polled, so two clicks of one gesture may be a frame apart.
   input_.double_click_s = std::max(0.4, 1.5 * (now - last_time_));
   last_time_ = now;

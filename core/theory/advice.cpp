@@ -1,6 +1,7 @@
 #include "core/theory/advice.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -17,7 +18,7 @@ constexpr double margin = 0.9;
 constexpr double least_dt = 1e-7;  // s, of presets
 
 std::string seconds(double dt) {
-  return short_number(dt, 2) + " s";
+  return quantity(dt, "s", 2);
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ double advised_dt(const Preset& p, const std::string& integrator) {
 
 std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
   if (inner.below_digits == 0 && inner.too_short == 0) return "";
-  const std::string tolerance = "The tolerance " + short_number(p.tolerance) + " m is ";
+  const std::string tolerance = "The tolerance " + quantity(p.tolerance, "m") + " is ";
   const std::string precision = p.precision == Precision::float_ ? "float" : "double";
   if (inner.below_digits > 0)
     return tolerance + "below what " + precision + " can resolve at these coordinates. Use " +
@@ -43,38 +44,41 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
          "tolerance.";
 }
 
-std::string sources_of_energy(const Preset& p) {
-  return p.kind == Kind::cloth ? "springs, weight, wind, the hand and bodies can have given the cloth"
-                               : "the spring and weight can have given the mass";
+std::string excess_in_words(double excess, const Preset& p) {
+  return (p.kind == Kind::cloth ? "the cloth has " : "the mass has ") + power_number(rounded(excess, 2)) +
+         " times the energy the scene can supply";
 }
 
 std::string energy_in_excess(double excess, const Preset& p) {
   constexpr double certain = 1.5;  // methods that keep to the motion stay below 1
   if (!(excess > certain)) return "";
-  return "The motion has " + short_number(rounded(excess, 2)) + " times the energy that " + sources_of_energy(p) +
-         "; errors of " + std::string(scheme(p.integrator).title) + " have added the rest, so the motion is not the " +
-         "model's: " + method_to_blame(p) + ". " + advice(p);
+  return sentence(excess_in_words(excess, p) + ": " + std::string(scheme(p.integrator).title) + "'s errors added it") +
+         " " + sentence(method_to_blame(p)) + " " + advice(p);
 }
 
-std::string solves_missed(const SolveCounts& solves, const Preset& p) {
+std::string stopped_early(const SolveCounts& solves, std::int64_t steps) {
+  steps = std::max(steps, solves.unconverged);  // a rewind takes steps back, but nothing of what the engine has counted
+  return grouped(solves.unconverged) + " of " + grouped(steps) + (steps == 1 ? " step" : " steps") + " stopped early";
+}
+
+std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& p) {
   if (solves.unconverged == 0) return "";
   const bool one = solves.unconverged == 1;
   constexpr double much = 0.1;
   const double worst = solves.worst_residual;
-  const std::string left = !std::isfinite(worst) ? "forces that are no numbers were left"
-                           : worst < 1
-                               ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
-                               : "up to " + short_number(worst, 2) + " times the largest force was left over";
-  const std::string count =
-      std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" + left + ")";
+  const std::string left = !std::isfinite(worst) ? "forces are not numbers"
+                           : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the force unbalanced"
+                                       : "up to " + power_number(worst, 2) + " times the largest force unbalanced";
+  const std::string count = stopped_early(solves, steps) + " (" + left + ")";
   if (2 * solves.rounded >= solves.unconverged) {
     const bool single = p.precision == Precision::float_;
     return count + ": with springs this stiff, rounding positions to " + (single ? "float" : "double") +
            " changes forces that much. " +
            (single ? "Use double precision (--precision double)." : "Use a smaller k_s or a larger m.");
   }
-  const std::string said = count + ", so the motion is " + (worst < much ? "not quite " : "not ") +
-                           (counts_passes(scheme(p.integrator)) ? "implicit Euler's. " : "the method's. ");
+  std::string method(scheme(counts_passes(scheme(p.integrator)) ? "implicit_euler" : p.integrator).title);
+  if (method[1] >= 'a') method[0] = char(std::tolower(static_cast<unsigned char>(method[0])));  // but "TR-BDF2"
+  const std::string said = count + "; this is " + (worst < much ? "not quite " : "not ") + method + "'s motion. ";
   const std::string passes = counts_passes(scheme(p.integrator))
                                  ? "Each step ends after " + std::to_string(p.iterations) +
                                        (p.iterations == 1 ? " pass, " : " passes, ") + "converged or not. "
@@ -107,14 +111,15 @@ std::string smaller_dt(const Preset& p) {
 
 /// Of an explicit method, whose dt is to be `own` or less and Verlet's `verlet` or less, s.
 std::string advice_on_dt(const Preset& p, double own, double verlet, const std::string& stiffness, bool overdamped) {
+  const std::string title(scheme(p.integrator).title);
   if (std::max(own, verlet) < least_dt)
     return "No dt that is allowed (" + seconds(least_dt) + " or more) is stable here: use a smaller " + stiffness +
            " or a larger m, or implicit Euler, which is stable at any stiffness, and restart.";
   if (own < verlet)
     return "Use Verlet" + (p.dt <= verlet ? "" : " with dt = " + seconds(verlet) + " or less") + " and restart; " +
-           (own >= least_dt ? "this method itself needs dt below about " + seconds(own)
-            : own > 0       ? "this method itself is stable at no dt that is allowed"
-                            : "without damping this method is unstable at every dt") +
+           (own >= least_dt ? title + " needs dt below about " + seconds(own) + " here"
+            : own > 0       ? title + " is stable at no dt that is allowed"
+                            : "without damping, " + title + " is unstable at every dt") +
            ".";
   if (p.dt > own) return "Use dt = " + seconds(own) + " or less, or a smaller " + stiffness + ", and restart.";
   const std::string smaller = p.dt > least_dt ? (overdamped ? "a smaller dt or " : "a smaller dt, ") : "";
@@ -127,7 +132,7 @@ std::string advice_on_dt(const Preset& p, double own, double verlet, const std::
 
 std::string method_to_blame(const Preset& p) {
   const Scheme& method = scheme(p.integrator);
-  const std::string title(method.title), at_dt = "at dt = " + short_number(p.dt) + " s";
+  const std::string title(method.title), at_dt = "at dt = " + quantity(p.dt, "s");
   switch (zone_of(p)) {
     case Zone::unstable:
       return title + " is unstable here " + at_dt;
@@ -139,7 +144,7 @@ std::string method_to_blame(const Preset& p) {
       break;
   }
   if (chooses_steps(method))
-    return title + " may need inner steps shorter than a ten-thousandth of dt = " + short_number(p.dt) + " s here";
+    return title + " may need inner steps shorter than a ten-thousandth of dt = " + quantity(p.dt, "s") + " here";
   return "linear theory finds " + title + " stable " + at_dt + ", but leaves out bodies, springs that switch or tear" +
          (is_implicit(method) ? ", and solves that do not converge" : "");
 }
@@ -147,7 +152,8 @@ std::string method_to_blame(const Preset& p) {
 std::string advice(const Preset& p) {
   const Mode fastest = any_configuration(p);
   const bool overdamped = fastest.damping > 2 * fastest.omega();
-  const std::string stiffness = overdamped ? "k_d" : p.kind == Kind::cloth ? "k_s" : "k";
+  const bool bending = 8 * p.k_b > 12 * p.k_s;  // it makes most of the fastest mode's stiffness
+  const std::string stiffness = overdamped ? "k_d" : p.kind == Kind::one_weight ? "k" : bending ? "k_b" : "k_s";
   const double verlet_dt = advised_dt(p, "verlet");
   if (chooses_steps(scheme(p.integrator)))
     return "Use " +

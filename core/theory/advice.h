@@ -22,14 +22,15 @@ double advised_dt(const Preset& preset, const std::string& integrator);
 /// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
 std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 
-/// "springs, weight, … can have given the cloth": what energy there is.
-std::string sources_of_energy(const Preset& preset);
-
-/// Whether the motion has more energy than it can have been given (Simulation::excess()), and what to do, likewise.
+/// "the cloth has 18,000 times the energy the scene can supply"; `excess`: Simulation::excess().
+std::string excess_in_words(double excess, const Preset& preset);
+/// Whether the motion has more energy than it can have been given, and what to do, likewise.
 std::string energy_in_excess(double excess, const Preset& preset);
 
+/// "12 of 3,400 steps stopped early"; `steps`: that have been made.
+std::string stopped_early(const SolveCounts& solves, std::int64_t steps);
 /// Whether steps of an implicit method did not converge, and what to do, likewise.
-std::string solves_missed(const SolveCounts& solves, const Preset& preset);
+std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& preset);
 
 /// What linear theory says of the method at the preset's dt, as the cause of a divergence (zones.h): words that go on
 /// after a colon.

@@ -28,11 +28,11 @@ TEST_CASE("the accuracy card says what is known, and why where nothing is") {
   AccuracyStudy study = study_of(test::cloth(8, 8, "verlet"));
   study.present = point("verlet", 2.13e-5, 0.0123);
   CHECK(accuracy_words(study) ==
-        "Verlet's error is 2.1e-5 m (rms) over the next 0.25 s from t = 0.000 s; it takes 0.012 s of CPU time per "
+        "Verlet's error is 21 µm (rms) over the next 0.25 s from t = 0.000 s; it takes 0.012 s of CPU time per "
         "simulated "
         "second.");
   study.present = point("verlet", 2e-9, 0.0123, false);
-  CHECK(accuracy_words(study).find("error is below 1e-8 m") != std::string::npos);
+  CHECK(accuracy_words(study).find("error is below 10 nm") != std::string::npos);
   study.present = point("verlet", std::numeric_limits<double>::infinity(), 0.0123);
   CHECK(accuracy_words(study).find("Verlet diverges") != std::string::npos);
   CHECK(accuracy_time(study) == "over the next 0.25 s");

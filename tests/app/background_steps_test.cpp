@@ -75,7 +75,7 @@ TEST_CASE("a step whose equations were not solved is said once, with what is lef
     const auto& said = session.messages.list();
     return std::count_if(said.begin(), said.end(), [](const Message& message) {
       return message.severity == Message::Severity::warning &&
-             message.text.find("did not converge (up to ") != message.text.npos;
+             message.text.find("stopped early (up to ") != message.text.npos;
     });
   };
   while (session.simulation->steps() < 4) session.update(frame, {});

@@ -53,6 +53,18 @@ TEST_CASE("a link brings back what was changed, whatever its name") {
   CHECK(there_and_back(preset, "sphere") == preset);
 }
 
+TEST_CASE("a link has no digits that only sums have left, and keeps those that were meant") {
+  Preset preset = read_preset(find_preset("hanging").file);
+  preset.L = 0.1 + 0.2, preset.k_s = 1.0 / 3, preset.x_0 = {0.23249999999999998, 0, 0};
+  const std::string link = link_to(preset, "hanging");
+  CHECK(link.find("L=0.3&") != std::string::npos);
+  CHECK(link.find("k_s=0.3333333333333333") != std::string::npos);
+  CHECK(link.find("[0.2325,0") != std::string::npos);
+  CHECK(embed_code("https://a.b/", "#flag&k_s=80&dt=0.001", "") ==
+        "<iframe width=\"900\" height=\"640\" src=\"https://a.b/?embed#flag&amp;k_s=80&amp;dt=0.001\"></iframe>");
+  CHECK(embed_code("https://a.b/", "#flag", "03_stiffness").find("?embed&amp;lab=03_stiffness\"") != std::string::npos);
+}
+
 TEST_CASE("an image of one's own is not in a link") {
   Preset preset = read_preset(find_preset("denim").file);
   preset.texture = "/home/somebody/image.png";

@@ -30,6 +30,8 @@ TEST_CASE("what is typed finds commands, presets, methods, labs, constants and v
   CHECK(first_for(desk, "RK4").find("Integrator: ") == 0);
   CHECK(first_for(desk, "hooke").find("Lab: Hooke") == 0);
   CHECK(first_for(desk, "k_d") == "Constant: k_d  Damping constant");
+  CHECK(first_for(desk, "k_s").starts_with("Constant: k_s "));  // a lab's title begins so too
+  CHECK(first_for(desk, "dt").starts_with("Constant: dt "));
   CHECK(first_for(desk, "dämpning") == "Constant: k_d  Damping constant");
   CHECK(first_for(desk, "copy improved") == "Copy: Add a copy: Improved Euler");
   CHECK(first_for(desk, "copy implicit euler") == "Copy: Add a copy: Implicit Euler");  // and not the semi-implicit one
@@ -84,6 +86,8 @@ TEST_CASE("a constant comes first by its key") {
   windy.W = {0, 0, 1e-3};
   test::Desk desk(windy);
   CHECK(first_for(desk, "gust").find("Constant: W_gust ") == 0);
+  test::Desk calm(test::cloth(8, 8));
+  CHECK(first_for(calm, "gust").find("Constant: W_gust ") == 0);  // though it needs wind to act
 }
 
 TEST_CASE("constants that play no part in the scene are left out") {

@@ -105,6 +105,7 @@ TEST_CASE("numbers are read as people type them and shown short") {
                              {"0.06 kN/m", "N/m", 60},
                              {"3 g", "kg", 3e-3},
                              {"40 µs", "s", 4e-5},
+                             {"2.5·10⁻¹² m", "m", 2.5e-12},
                              {"-9.82 m/s²", "m/s²", -9.82},
                              {"-9.82m/s^2", "m/s²", -9.82},
                              {".5", "", 0.5}}) {
@@ -122,6 +123,25 @@ TEST_CASE("numbers are read as people type them and shown short") {
   CHECK(short_number(310) == "310");
   CHECK(short_number(0.002) == "0.002");
   CHECK(short_number(0) == "0");
+  CHECK(steady_number(0.00341) == "3.41·10⁻³");
+  struct Shown {
+    double value;
+    const char *unit, *text;
+  };
+  for (const Shown& shown : {Shown{26.1e-6, "s", "26.1 µs"},
+                             {0.002, "s", "0.002 s"},
+                             {-4.04e-4, "N", "-0.404 mN"},
+                             {4.04e-4, "N s/m", "0.404 mN s/m"},
+                             {2e-6, "kg", "2 mg"},
+                             {2.1e-5, "1/s", "2.1·10⁻⁵ 1/s"},
+                             {1e-13, "m", "1·10⁻¹³ m"},
+                             {3e7, "N/m", "3·10⁷ N/m"},
+                             {18000, "", "18,000"},
+                             {0, "N", "0 N"}})
+    CHECK(quantity(shown.value, shown.unit) == shown.text);
+  CHECK(scaled_unit(0.0048, "m/s²").name == "mm/s²");
+  CHECK(grouped(1234567) == "1,234,567");
+  CHECK(grouped(-123) == "-123");
   test::Random random(3);
   for (int n = 0; n < 1000; ++n) {
     const double value = std::ldexp(random.uniform(-1, 1), random.below(60) - 30);

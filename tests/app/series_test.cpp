@@ -102,4 +102,23 @@ TEST_CASE("a plot's file is a series of `run`: from t = 0 on, with the same name
   CHECK(recorded.forces.t()[1] == preset.dt);
 }
 
+TEST_CASE("a rewind keeps the samples up to where the motion goes on from") {
+  Series series(1);
+  for (int n = 1; n <= 10; ++n) series.add(0.1 * n, std::vector<double>{double(n)});
+  series.go_on_from(0.55);
+  REQUIRE(series.size() == 5);
+  series.add(0.6, std::vector<double>{60.0});
+  CHECK(series.size() == 6);
+  CHECK(series.column(0)[4] == 5);
+  CHECK(series.gaps().empty());
+  series.go_on_from(2);  // an undone rewind
+  series.add(2.1, std::vector<double>{1.0});
+  CHECK(series.size() == 7);
+  REQUIRE(series.gaps().size() == 1);
+  CHECK(series.gaps()[0] == 6);
+  series.go_on_from(0);
+  CHECK(series.empty());
+  CHECK(series.gaps().empty());
+}
+
 }  // namespace tyglab::series_test

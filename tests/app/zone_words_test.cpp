@@ -20,7 +20,7 @@ StabilityLimits limits_with(std::vector<ZoneSpan> zones, double k_s, const char*
 TEST_CASE("it says in which zone the value is, by how much, and where all zones lie") {
   const std::vector<ZoneSpan> usual{
       {0, 133.3, Zone::stable}, {133.3, 1600, Zone::depends}, {1600, 1e6, Zone::unstable}};
-  const std::string part = ": dt is 115 % of the worst-case limit and 92 % of this cloth's own, as it hangs now.\n",
+  const std::string part = ": dt is 115 % of the worst-case limit, 92 % of this cloth's as it hangs now.\n",
                     where =
                         "Verlet at this dt, as k_s grows: stable in any shape up to 133 N/m, depends on the shape up "
                         "to 1600 N/m, unstable in every shape above that.";

@@ -110,9 +110,9 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
     CHECK(check(folder, words, 0, "3 steps to t").err.empty());
     CHECK(test::read_file(folder / "a.json").find("\"unconverged\": 0") != std::string::npos);
     words.insert(words.end(), {"--set", "iterations=1"});
-    const auto outcome = check(folder, words, 0, " steps did not converge (up to ");
+    const auto outcome = check(folder, words, 0, "3 of 3 steps stopped early (up to ");
     CHECK(test::lines(outcome.err).size() == 2);  // the other: that these steps have added energy
-    CHECK(outcome.err.find("times the energy that") != std::string::npos);
+    CHECK(outcome.err.find("times the energy the scene can supply") != std::string::npos);
     CHECK(outcome.err.find("linear solve. Use a smaller dt or more iterations.") != std::string::npos);
     const std::string json = test::read_file(folder / "a.json");
     CHECK(json.find("\"unconverged\": 3") != std::string::npos);
@@ -191,7 +191,7 @@ TEST_CASE("a step's time can be limited where it can end early, and is told with
     return words;
   };
   const auto outcome = check(folder, with({"--integrator", "implicit_euler", "--step-limit", "0.01"}), 0, "3 steps to");
-  CHECK(outcome.err.find("3 steps did not converge (up to ") != std::string::npos);
+  CHECK(outcome.err.find("3 of 3 steps stopped early (up to ") != std::string::npos);
   CHECK(outcome.err.find("The time limit ended them (the longest took ") != std::string::npos);
   CHECK(test::read_file(folder / "a.json").find("\"ended_early\": 3") != std::string::npos);
   check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2, "what a step of tr_bdf2 leaves unsolved");

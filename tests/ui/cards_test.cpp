@@ -67,10 +67,38 @@ TEST_CASE("the card keeps the ledger while it is open: energy moves from height 
   window.until([&] { return window.cloth().ledger()->works.damping < -1e-4; }, "damping to take energy");
   CHECK(std::abs(window.cloth().ledger()->share()) < 0.01);
   CHECK(window.cloth().ledger()->works.wind == 0);
+  const Series& curves = window.session.recorded.energy;  // no copy is needed for them
+  REQUIRE(curves.size() > 5);
+  CHECK(curves.column(0).back() > 0);
+  CHECK(curves.column(2).back() < 0);
+  if (!window.sees("plots.energy_plot")) window.scroll_to("plots.energy_plot", "plots.Energy");
+  CHECK(window.sees("plots.energy_plot"));
   window.type_value("k_s", "90");
   window.until([&] { return window.cloth().ledger()->works.edits != 0; }, "the edit to be told");
   window.click("plots.Energy");
   CHECK_FALSE(window.cloth().ledger().has_value());
+}
+
+TEST_CASE("energy that a method takes is called removed, and has no sign") {
+  test::NullUi window({.with = [](Preset& preset) { preset.integrator = "implicit_euler", preset.dt = 0.01; }});
+  window.pause();
+  window.click("plots.Energy");
+  window.key(GLFW_KEY_SPACE);
+  window.until([&] { return window.cloth().ledger()->share() < -1e-3; }, "implicit Euler to take energy");
+  window.frames(2);
+  CHECK(window.drew("removed by the method"));
+  CHECK_FALSE(window.drew("added by the method"));
+}
+
+TEST_CASE("what decides is shown: of an ω·dt just above Verlet's limit as many digits as tell it from 2") {
+  test::NullUi window({.preset = "one_weight", .with = [](Preset& preset) {
+                         preset.integrator = "verlet", preset.k_d = 0, preset.k = 1000;
+                         preset.dt = 2.003 / std::sqrt(preset.k / preset.m);
+                       }});
+  window.pause();
+  window.find("stability card");
+  window.until([&] { return window.drew("2.003, above the limit 2: oscillations grow by 12 % per step."); },
+               "the sentence");
 }
 
 TEST_CASE("what an open card needs is wanted in the frame that opens it, whether anything is drawn or not") {
@@ -113,6 +141,7 @@ TEST_CASE("dt follows the constants while it is automatic, until it is typed" * 
   test::NullUi window;
   window.click("constants.auto");
   window.until([&] { return window.session.auto_dt.has_value(); }, "dt to become automatic");
+  CHECK(window.said("and follows the constants."));
   const double before = window.preset().dt;
   window.type_value("k_s", "5000");
   window.until([&] { return window.preset().dt < before / 5; }, "dt to follow k_s");
@@ -306,7 +335,7 @@ TEST_CASE("the Energy card has the textbook's names, and says what a whole bar s
   window.click("plots.Energy");
   window.frames(3);
   for (const char* name : {"kinetic", "elastic, stretch", "gravitational potential", "total"}) CHECK(window.drew(name));
-  CHECK(window.drew("full bar 0.2 J"));  // ½ k x²
+  CHECK(window.drew("full scale 0.2 J"));  // ½ k x²
 }
 
 TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {

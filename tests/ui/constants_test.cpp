@@ -45,7 +45,7 @@ TEST_CASE("what is left of numbers that cancel is 0 in the picked particle's rea
   window.frames(2);
   const double F_s = window.cloth().particle(0, 0).F_s.y;
   REQUIRE(F_s != 0);
-  CHECK_FALSE(window.drew("e-15"));
+  CHECK_FALSE(window.drew("10⁻¹"));
 }
 
 TEST_CASE("dragging the slider of k_s changes k_s, and one undo takes the whole drag back") {
@@ -100,11 +100,11 @@ TEST_CASE("a value typed after Ctrl+click is taken; Escape, nonsense and values 
                "the gauge to say that dt is too long for it");
   window.type_value("k_s", "7", test::NullUi::escape);
   CHECK(window.preset().k_s == 310);
-  for (const auto& [text, message] : {std::pair{"abc", "not a number"},
-                                      {"1e12", "ranges from"},
+  for (const auto& [text, message] : {std::pair{"abc", "“abc” is not a number; k_s stays at 310 N/m."},
+                                      {"1e12", "N/m; it stays at 310 N/m."},
                                       {"-3", "ranges from"},
                                       {"nan", "not a number"},
-                                      {"1e999", "“1e999” is out of range; the value stays. Type one such as"}}) {
+                                      {"1e999", "“1e999” is out of range; k_s stays at 310 N/m."}}) {
     CAPTURE(text);
     window.type_value("k_s", text);
     CHECK(window.preset().k_s == 310);
@@ -161,6 +161,29 @@ TEST_CASE("a double click on a number lets one type it, also while its slider ha
   REQUIRE(window.typing());
   window.key(GLFW_KEY_Q, ctrl);
   CHECK(window.session.quit);
+}
+
+TEST_CASE("methods are listed in groups, the report's first, with order and limit, and chosen by pointer or keys") {
+  test::NullUi window;
+  window.pause();
+  window.click("constants.integrator");
+  window.frames(3);
+  for (const char* words : {"IN THE REPORT", "EXPLICIT", "IMPLICIT", "AS IN GAMES", "order", "dt at most"})
+    CHECK(window.drew(words));
+  const auto y = [&](const std::string& method) { return window.control("menu." + method).lo.y; };
+  CHECK(y("euler") < y("verlet"));
+  CHECK(y("verlet") < y("rk4"));
+  CHECK(y("rk4") < y("implicit_euler"));
+  CHECK(y("implicit_euler") < y("xpbd"));
+  window.key(GLFW_KEY_DOWN);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK(window.preset().integrator == "semi_implicit_euler");  // after verlet
+  CHECK_FALSE(window.ui.methods.open);
+  window.click("constants.integrator");
+  window.frames(3);
+  window.click("menu.implicit_midpoint");
+  CHECK(window.preset().integrator == "implicit_midpoint");
 }
 
 TEST_CASE("a click anywhere on a message takes it away") {
@@ -328,9 +351,9 @@ TEST_CASE(
     CHECK(window.drew(words));
   };
   says("gauge_worst_case", "Line: the worst-case limit,");
-  says("gauge_this_cloth", "Dot: this cloth's own limit, as it hangs now");
+  says("gauge_this_cloth", "Dot: this cloth's own limit as it hangs now");
   says("gauge_every_shape", "is unstable in every shape in which a spring pulls");
-  says("gauge_dt", "of this cloth's own, as it hangs now.");
+  says("gauge_dt", "of this cloth's as it hangs now.");
   says("stability", "Stable in any shape: dt is");
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("the preset that explodes stops, says when, where and why, and starts 
 bool tells_of_excess(const test::NullUi& window) {
   const auto& list = window.session.messages.list();
   return std::any_of(list.begin(), list.end(), [](const Message& message) {
-    return message.text.find("times the energy that") != std::string::npos;
+    return message.text.find("times the energy the scene can supply") != std::string::npos;
   });
 }
 

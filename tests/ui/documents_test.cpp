@@ -195,7 +195,7 @@ TEST_CASE("cards are gone through by keys; a preset with errors says what is wro
   window.key(GLFW_KEY_A, ctrl);
   window.type("zzz");
   window.frames(2);
-  CHECK(window.drew("Nothing has that name"));
+  CHECK(window.drew("No matches."));
   window.key(GLFW_KEY_A, ctrl);
   window.type("strip");
   window.frames(2);
@@ -295,6 +295,29 @@ TEST_CASE("quitting asks while changes are unsaved; Escape stays, Save saves fir
   save_as(window, "Kept", file);
   CHECK(window.session.quit);
   CHECK(load_preset(file).k_s == 66);
+}
+
+TEST_CASE("copied links begin with the course's page once its address is set") {
+  test::NullUi window;
+  window.pause();
+  window.ui.command("copy_embed_code");
+  window.frames(2);
+  CHECK(window.said("Set the address of your Tyglab page first"));
+  window.find("copy link");
+  CHECK(std::string(ImGui::GetClipboardText()) == "#hanging");
+  window.find("course page");
+  window.fill("dialog.path", "example.org");
+  window.click("dialog.Keep");
+  CHECK(window.drew("An address begins with https:// or http://."));
+  window.fill("dialog.path", " https://example.org/tyglab/#flag ");
+  window.click("dialog.Keep");
+  CHECK(window.settings.course_page == "https://example.org/tyglab/");
+  window.type_value("k_s", "80");
+  window.find("copy link");
+  CHECK(std::string(ImGui::GetClipboardText()) == "https://example.org/tyglab/#hanging&k_s=80");
+  CHECK(window.said("Link copied."));
+  window.find("copy embed code");
+  CHECK(std::string(ImGui::GetClipboardText()).starts_with("<iframe"));
 }
 
 }  // namespace tyglab::documents_test

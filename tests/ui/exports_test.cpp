@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/base/glfw_keys.h"
+#include "app/ui/frame/frame.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::exports_test {
@@ -57,6 +58,40 @@ TEST_CASE("Ctrl+E writes the cloth as OBJ, and the palette the state, as the clo
   REQUIRE(state.size() == 2 + 1024);
   const std::vector<double> corner = numbers(state.back()), meshed = numbers(vertices.back(), ' ');
   for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(corner[2 + k] - meshed[k]) < 1e-6);
+}
+
+TEST_CASE("a film of the window is found by its other names, and has 25 images for each second of the motion") {
+  test::NullUi window;
+  fall_and_pause(window);
+  for (const char* words : {"film", "video", "record"}) {
+    window.find(words);
+    window.frames(2);
+    CHECK(window.ui.dialog.kind == Dialog::Kind::film);
+    window.key(GLFW_KEY_ESCAPE);
+    window.frames(2);
+  }
+  window.find("film");
+  const test::TemporaryFolder folder;
+  window.fill("dialog.seconds", "0.2");
+  window.fill("dialog.path", (folder / "film").string());
+  window.click("dialog.Export");
+  REQUIRE(window.ui.film);
+  CHECK(std::filesystem::is_directory(folder / "film"));
+  const double begun = window.t();
+  std::vector<double> taken;
+  std::string last;
+  for (int n = 0; n < 200 && window.ui.film; ++n) {
+    const auto elapsed = direct_film(window.ui);
+    if (!elapsed) break;
+    act_on_events(window.ui, *elapsed, 1.0 / 60);
+    if (window.ui.picture) taken.push_back(window.t()), last = window.ui.picture->file.filename().string();
+    window.ui.picture.reset();
+  }
+  REQUIRE(taken.size() == 5);
+  CHECK(last == "hanging_0004.png");
+  for (std::size_t n = 0; n < taken.size(); ++n)
+    CHECK(std::abs(taken[n] - begun - 0.04 * double(n)) <= 1.01 * window.preset().dt);
+  CHECK(window.said("Exported 5 images to "));
 }
 
 TEST_CASE("a mass on a spring is no mesh: that is said, and no dialog opens") {

@@ -141,6 +141,10 @@ TEST_CASE("every character of every shipped text has a glyph") {
     check_sources(glyphs);
     CHECK(glyphs.seen() > 50000);
   }
+  for (const ImFont* font : {window.ui.fonts.mono, window.ui.fonts.axis}) {
+    GlyphCheck numbers(*font);
+    numbers("·10⁻⁰¹²³⁴⁵⁶⁷⁸⁹ × µnm", "numbers");
+  }
   GlyphCheck title(*window.ui.fonts.title);
   check_labs(title);
 }

@@ -321,6 +321,28 @@ TEST_CASE("Ctrl and + or - change the size of text, Ctrl+0 brings it back, and a
   CHECK(height() == before);
 }
 
+TEST_CASE("the cloth has six tenths of a window of 1280 pixels, until a column is dragged wider") {
+  for (const char* theme : {"dark", "light"}) {
+    test::NullUi window(options("hanging", 1, theme));
+    const auto width = [&] { return window.ui.viewport.whole().x; };
+    CHECK(width() >= 0.6f * 1280);
+    const float before = width();
+    const glm::vec2 border{window.ui.viewport.box.lo.x, 400};
+    window.drag({border, border + glm::vec2(40, 0)});
+    window.frames(3);
+    CHECK(width() == doctest::Approx(before - 40).epsilon(0.01));
+  }
+}
+
+TEST_CASE("panels that are hidden during a lab leave its name") {
+  test::NullUi window(options("hanging"));
+  begin_lab(window.session, "01_hooke");
+  window.frames(4);
+  window.key(GLFW_KEY_TAB);
+  window.frames(4);
+  CHECK(window.drew("Lab: " + window.session.labs.run->lab.title + " · Tab shows the panels"));
+}
+
 TEST_CASE("Tab hides the panels and brings them back; neither that nor a view changes the preset") {
   test::NullUi window(options("hanging"));
   const Box before = window.ui.viewport.box;
@@ -330,7 +352,8 @@ TEST_CASE("Tab hides the panels and brings them back; neither that nor a view ch
   window.frames(2);
   CHECK(window.ui.viewport.whole() == glm::vec2(1280, 720));
   CHECK_FALSE(window.sees("constants.k_s.slider"));
-  window.key(GLFW_KEY_TAB);
+  CHECK(window.drew("Tab shows the panels"));
+  window.click("viewport.show_panels");
   window.frames(2);
   CHECK(window.ui.viewport.box.lo == before.lo);
   CHECK(window.ui.viewport.box.hi == before.hi);

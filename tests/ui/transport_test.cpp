@@ -59,6 +59,20 @@ TEST_CASE("Backspace and R restart the motion and keep the constants") {
   }
 }
 
+TEST_CASE("a rewind keeps the plots up to the moment that it goes back to") {
+  test::NullUi window;
+  window.until([&] { return window.t() > 1.5; }, "the motion");
+  window.pause();
+  const Series& forces = window.session.recorded.forces;
+  const std::size_t before = forces.size();
+  window.key(GLFW_KEY_LEFT);
+  window.frames(3);
+  CHECK(window.t() < 1);
+  CHECK(forces.size() > before / 4);
+  CHECK(forces.size() < before);
+  CHECK(forces.t().back() <= window.t());
+}
+
 TEST_CASE("thirty key presses within a frame make thirty steps, and an odd number of Space starts the motion") {
   test::NullUi window;
   window.pause();

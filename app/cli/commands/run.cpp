@@ -399,7 +399,8 @@ int run(const RunOptions& options) {
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
   if (const std::string excess = energy_in_excess(excess_at_end, simulation.preset()); !excess.empty())
     std::cerr << "tyglab: " << excess << '\n';
-  if (const std::string missed = solves_missed(simulation.engine().solves(), simulation.preset()); !missed.empty())
+  if (const std::string missed = solves_missed(simulation.engine().solves(), simulation.steps(), simulation.preset());
+      !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
   if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "app/base/text.h"
 #include "app/ui/kit/chart.h"
@@ -50,9 +51,18 @@ ChartSeries mark_at(const std::string& name, double x, ImU32 color, LineStyle li
 
 std::string region_sentence(const StabilityRegion& region) {
   const Spectrum& of = region.bounds;
-  return "Inner steps of up to " + short_number(rounded(region.h, 2)) + " s have " + std::to_string(region.stages) +
-         " stages: damping takes hλ to −" + short_number(rounded(of.radius, 2)) +
+  return "Inner steps of up to " + quantity(region.h, "s", 2) + " have " + std::to_string(region.stages) +
+         " stages: damping takes hλ to −" + power_number(rounded(of.radius, 2)) +
          (of.circle <= of.radius ? ", oscillations stay in the half circle." : ", oscillations are nearly undamped.");
+}
+
+/// ω·dt in as many digits as tell it from its limit, which is said where they are close: "2.003, above 2".
+std::string beside_limit(double h, double limit) {
+  if (!(limit > 0) || !(h / limit > 0.9 && h / limit < 1.1)) return short_number(h, 3);
+  int digits = 3;
+  while (digits < 7 && h != limit && short_number(h, digits) == short_number(limit, digits)) ++digits;
+  return short_number(h, digits) + (h > limit ? ", above the limit " : ", within the limit ") +
+         short_number(limit, digits);
 }
 
 std::string stability_sentence(const StabilityLimits& limits) {
@@ -69,12 +79,11 @@ std::string stability_sentence(const StabilityLimits& limits) {
   const std::string of = limits.at_start ? "As the cloth starts, its fastest mode has ω·dt = "
                          : limits.now    ? "The fastest mode now has ω·dt = "
                                          : "The fastest possible mode has ω·dt = ";
-  const std::string size = short_number(rounded(100 * radius, 4)) + " % each step.";
-  const std::string times = short_number(rounded(radius, 3)) + " times their size in each step.";
-  return of + short_number(h, 3) +
-         (radius >= 2         ? ": oscillations grow to " + times
-          : radius > 1 + 1e-9 ? ": oscillations grow to " + size
-          : radius < 1 - 1e-9 ? ": oscillations shrink to " + size
+  const std::string by = short_number(rounded(100 * std::abs(radius - 1), 2)) + " % per step.";
+  return of + beside_limit(h, dt_crit(method, std::span(&limits.fastest, 1)) * limits.fastest.omega()) +
+         (radius >= 2         ? ": oscillations grow " + power_number(rounded(radius, 3)) + "-fold per step."
+          : radius > 1 + 1e-9 ? ": oscillations grow by " + by
+          : radius < 1 - 1e-9 ? ": oscillations shrink by " + by
                               : ": oscillations keep their size.");
 }
 
@@ -141,34 +150,33 @@ Chart region_chart(const Tokens& c, const StabilityRegion& region) {
 
 std::string accuracy_time(const AccuracyStudy& study) {
   if (!study.present) return {};
-  return "over the next " + short_number(rounded(study.reference.seconds, 2)) + " s";
+  return "over the next " + quantity(study.reference.seconds, "s", 2);
 }
 
 std::string accuracy_words(const AccuracyStudy& study) {
   if (!study.problem.empty()) return "There is no reference to compare with: " + study.problem + ".";
   const ErrorPoint& now = *study.present;
-  const std::string over = " over the next " + short_number(rounded(study.reference.seconds, 2)) +
-                           " s from t = " + time_number(study.at.t, now.dt) + " s";
+  const std::string over = " over the next " + quantity(study.reference.seconds, "s", 2) +
+                           " from t = " + time_number(study.at.t, now.dt) + " s";
   const std::string short_time = why_short(study);
   const std::string method(scheme(now.integrator).title);
   if (!chooses_steps(scheme(now.integrator)) && now.dt < 0.9 * study.of.dt)
-    return "The reference covers only " + short_number(rounded(study.reference.seconds, 2)) +
-           " s of this cloth: too short to measure the error at dt = " + short_number(study.of.dt) + " s.";
+    return "The reference covers only " + quantity(study.reference.seconds, "s", 2) +
+           " of this cloth: too short to measure the error at dt = " + quantity(study.of.dt, "s") + ".";
   if (!std::isfinite(now.error_rms_m))
     return "With the present settings, " + method + " diverges" + over + "." + short_time;
   const double floor = reference_margin * study.reference.agreement_rms_m;
-  const std::string error = now.resolved ? short_number(rounded(now.error_rms_m, 2))
-                                         : "below " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
-  return method + "'s error is " + error + " m (rms)" + over + "; it takes " + short_number(rounded(now.cost, 2)) +
-         " s of CPU time per simulated second." + short_time;
+  const std::string error =
+      now.resolved ? quantity(now.error_rms_m, "m", 2) : "below " + quantity(std::max(floor, now.error_rms_m), "m", 2);
+  return method + "'s error is " + error + " (rms)" + over + "; it takes " + quantity(now.cost, "s", 2) +
+         " of CPU time per simulated second." + short_time;
 }
 
 std::string measuring_words(const AccuracyStudy& study, double elapsed) {
   const Preset& of = study.of;
   std::string words = "Measuring the error of " + std::string(scheme(of.integrator).title);
-  if (!chooses_steps(scheme(of.integrator))) words += " at dt = " + short_number(of.dt) + " s";
-  if (study.reference.seconds > 0)
-    words += " over the next " + short_number(rounded(study.reference.seconds, 2)) + " s";
+  if (!chooses_steps(scheme(of.integrator))) words += " at dt = " + quantity(of.dt, "s");
+  if (study.reference.seconds > 0) words += " over the next " + quantity(study.reference.seconds, "s", 2);
   const double part = study.reference_part;
   if (part >= 1) return words + ". The fine runs to compare with are done; the run with these settings follows.";
   words += ". First come two fine runs to compare with: " + std::to_string(int(100 * part)) + " % done";
@@ -314,7 +322,7 @@ std::string order_words(const Ui& ui, const std::optional<Convergence>& study) {
   if (!study && ui.session.simulation->divergence())
     return "Nothing is measured once the cloth has diverged: restart it.";
   if (!study) return "The order of " + method + " is measured as soon as the constants stand still for a moment.";
-  const std::string over = " over the next " + short_number(rounded(study->seconds, 2)) + " s";
+  const std::string over = " over the next " + quantity(study->seconds, "s", 2);
   if (study->points.empty())
     return "Measuring the order of " + method + (study->seconds > 0 ? over : "") +
            ". First come fine runs to compare with, then " + std::to_string(convergence_levels) +

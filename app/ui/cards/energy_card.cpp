@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/base/text.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr const char* energy_heading = card_name::energy;
 constexpr std::string_view height_row = "gravitational potential", total_row = "total";
-constexpr float gap_at_1 = 7, restart_at_1 = 36;  // pixels at scale 1
+constexpr float gap_at_1 = 7, restart_at_1 = 36, curves_at_1 = 130;  // pixels at scale 1
 
 ImU32 color_of(const Tokens& c, double share) {
   return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
@@ -43,7 +44,8 @@ BarColumn bar_column(const Ui& ui, float width) {
   return {left, right, left + ui.theme.px(24) < right};
 }
 
-void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double full, float width) {
+void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double full, const ScaledUnit& unit,
+                 float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = ui.theme.px(card::line), middle = std::round(lo.y + height / 2);
@@ -62,12 +64,14 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
                       : row.kind == EnergyKind::has ? c.accent
                                                     : c.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink, row.name);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink,
+                   unexplained && row.joule < 0 ? std::string_view("removed by the method") : row.name);
   const float bar = ui.theme.px(4);
   if (const BarColumn bars = bar_column(ui, width); from_zero(row) && bars.any)
     draw_bar(ui, {lo.x + bars.left, middle - bar}, {lo.x + bars.right, middle + bar}, row.joule / full,
              faded(color, 0.8f));
-  const std::string text = unknown ? "–" : short_number(row.joule, 3) + " J";
+  const double shown = unexplained ? std::abs(row.joule) : row.joule;
+  const std::string text = unknown ? "–" : power_number(shown / unit.size, 3) + " " + unit.name;
   const ImFont& mono = *ui.fonts.mono;
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, unexplained ? color : ink, text);
 }
@@ -81,11 +85,11 @@ double full_bar(double largest) {
 }
 
 /// What a full bar stands for, above its end: half a bar is what is gained, half what is lost.
-void bar_scale(Ui& ui, double full, float width) {
+void bar_scale(Ui& ui, double full, const ScaledUnit& unit, float width) {
   const BarColumn bars = bar_column(ui, width);
   if (!bars.any) return;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string words = "full bar " + short_number(full, 3) + " J";
+  const std::string words = "full scale " + short_number(full / unit.size, 3) + " " + unit.name;
   const ImFont& small = *ui.fonts.small;
   const float left = std::max(lo.x, lo.x + bars.right - text_width(small, words));
   draw_on_baseline(*ImGui::GetWindowDrawList(), small,
@@ -109,6 +113,24 @@ void since_line(Ui& ui, const LedgerReading& reading) {
   tooltip(ui, gui::item_id(), "Restarts the motion and counts from its start", "R");
 }
 
+/// The energies over time.
+void energy_curves(Ui& ui, ImVec2 size) {
+  const Tokens& c = ui.theme.colors;
+  const CurveStyle styles[] = {{c.blue, LineStyle::solid, 1.8f},
+                               {c.green, LineStyle::dashed, 1.8f},
+                               {c.text, LineStyle::solid, 1.2f},
+                               {c.vermilion, LineStyle::dotted, 2.2f}};
+  const Series& series = ui.session.recorded.energy;
+  std::vector<PlotCurve> curves;
+  for (std::size_t k = 0; k < energy_columns.size(); ++k) {
+    curves.push_back({energy_columns[k], styles[k], series.t(), series.column(k)});
+    curves.back().gaps = series.gaps();
+  }
+  const PlotFrame frame = time_frame(ui, series, false, "J", why_empty(ui));
+  zoom_time(ui, frame, draw_plot(ui, "energy plot", size, curves, frame));
+  report_control(ui, "energy_plot");
+}
+
 }  // namespace
 
 std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
@@ -127,21 +149,19 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
       {EnergyKind::works, "hand", "Work of the hand.", r.works.hand},
       {EnergyKind::works, "edits", "Jumps in energy when constants, pins or methods change.", r.works.edits},
       {EnergyKind::unexplained, "added by the method",
-       "The remainder: energy that no force explains, so the integrator added (above 0) or removed it.",
-       r.unexplained()},
+       "The remainder: energy that no force explains, so the integrator added or removed it.", r.unexplained()},
   };
 }
 
 std::string share_text(const LedgerReading& reading) {
-  return short_number(100 * reading.share(), 2) + " % of the scene's energy scale, " + short_number(reading.scale, 3) +
-         " J";
+  return short_number(100 * reading.share(), 2) + " % of the scene's energy scale, " + quantity(reading.scale, "J", 3);
 }
 
 float energy_card_height(const Ui& ui, float width) {
   const auto ledger = ui.session.simulation->ledger();
   const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
   const std::size_t lines = energy_rows({}).size() + (bar_column(ui, card_width(ui, width)).any ? 2 : 1);
-  return card_height(ui, energy_heading, float(lines) * card::line + 3 * gap_at_1 + button);
+  return card_height(ui, energy_heading, float(lines) * card::line + 4 * gap_at_1 + curves_at_1 + button);
 }
 
 void energy_card(Ui& ui, float height) {
@@ -154,12 +174,15 @@ void energy_card(Ui& ui, float height) {
     for (const EnergyRow& row : rows)
       if (from_zero(row)) largest = std::max(largest, std::abs(row.joule));
     const double full = full_bar(largest);
-    bar_scale(ui, full, width);
+    const ScaledUnit unit = scaled_unit(full, "J");  // one for all rows
+    bar_scale(ui, full, unit, width);
     for (const EnergyRow& row : rows) {
       if (row.kind != last) ImGui::Dummy({width, ui.theme.px(gap_at_1)});
       last = row.kind;
-      energy_line(ui, row, *reading, full, width);
+      energy_line(ui, row, *reading, full, unit, width);
     }
+    ImGui::Dummy({width, ui.theme.px(gap_at_1)});
+    energy_curves(ui, {width, ui.theme.px(curves_at_1)});
     ImGui::Dummy({width, ui.theme.px(gap_at_1)});
     since_line(ui, *reading);
   }

@@ -126,10 +126,11 @@ std::size_t chosen_tab(const Plots& plots, std::span<const Card> cards) {
   return 0;
 }
 
-/// Of the plots above each other what is left over is shared out alike. One alone does not need the whole column: a
-/// plot much taller than wide is hard to read.
-std::vector<float> shared_out(const Ui& ui, std::vector<float> heights, float room) {
-  if (heights.size() == 1) return {std::floor(std::max({heights[0], 0.6f * room, std::min(room, ui.theme.px(420))}))};
+/// Of the plots above each other what is left over is shared out alike. One alone takes all of it, up to where it would
+/// be too tall for its width to be read.
+std::vector<float> shared_out(const Ui& ui, std::vector<float> heights, float width, float room) {
+  constexpr float tallest = 1.6f;
+  if (heights.size() == 1) return {std::floor(std::max({heights[0], 0.6f * room, std::min(room, tallest * width)}))};
   const float spare = (room - total(ui, heights)) / float(heights.size());
   for (float& height : heights) height = std::floor(height + spare);
   return heights;
@@ -157,7 +158,7 @@ ColumnPlan plan_column(const Ui& ui, ImVec2 column) {
   for (float& height : least) height = std::max(height, ui.theme.px(least.size() > 1 ? stacked_at_1 : 0));
   plan.tabs = least.size() > 1 && total(ui, least) > plan.plots_height;
   plan.chosen = chosen_tab(ui.plots, plan.plots);
-  plan.heights = shared_out(ui, std::move(least), plan.plots_height);
+  plan.heights = shared_out(ui, std::move(least), column.x, plan.plots_height);
   return plan;
 }
 

@@ -55,7 +55,7 @@ std::optional<Refusal> refusal_of(const SettingsSearch& search, double tolerance
 void ask_for_settings(Ui& ui) {
   if (const auto target = target_error(ui)) return ui.session.studies.settings.ask(*target, ui.session.preset());
   ui.session.messages.error(std::string("“") + ui.plots.target +
-                            "” is not an error from 1e-12 to 1 m. Type one such as 1e-4.");
+                            "” is not a length from 10⁻¹² to 1 m, such as 1e-4 or 0.1 mm.");
 }
 
 void type_target(Ui& ui, double tolerance) {
@@ -111,14 +111,26 @@ void finder_number(Ui& ui, const ImFont& font, float right, float middle, ImU32 
                    color, text);
 }
 
+/// What the numbers of a column are in: one unit for all that keep the error.
+struct FinderUnits {
+  ScaledUnit dt, error;
+};
+
+FinderUnits finder_units(const std::vector<ErrorPoint>& points) {
+  double dt = 0, error = 0;
+  for (const ErrorPoint& point : points)
+    error = std::max(error, point.error_rms_m), dt = std::max(dt, point.tolerance > 0 ? 0 : point.dt);
+  return {scaled_unit(dt, "s"), scaled_unit(error, "m")};
+}
+
 /// `to`: what costs are relative to, "now" or "before"; null where they are not.
-void finder_head(Ui& ui, const char* to) {
+void finder_head(Ui& ui, const FinderUnits& units, const char* to) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const FinderColumns at = finder_columns(ui);
   const float middle = lo.y + ui.theme.px(card::line) / 2;
   const ImU32 color = ui.theme.colors.quiet;
-  finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, s");
-  finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
+  finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, " + units.dt.name);
+  finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, " + units.error.name);
   const std::string brief = to != nullptr ? std::string("× ") + to : "s/s", whole = "CPU, " + brief;
   const bool fits = text_width(*ui.fonts.small, whole) <= at.cost - at.error - ui.theme.px(finder_gap_at_1);
   finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color, fits ? whole : brief);
@@ -126,7 +138,7 @@ void finder_head(Ui& ui, const char* to) {
 }
 
 std::string two_digits_of(double value) {
-  return short_number(rounded(value, 2));
+  return power_number(rounded(value, 2));
 }
 
 /// Whether the method, its dt or tolerance, and the precision are the same.
@@ -140,8 +152,8 @@ bool same_settings(const Preset& a, const Preset& b) {
 std::string setting_words(const Preset& preset) {
   const Scheme& method = scheme(preset.integrator);
   return std::string(method.title) + " and " +
-         (chooses_steps(method) ? "a tolerance of " + two_digits_of(preset.tolerance) + " m"
-                                : "dt = " + two_digits_of(preset.dt) + " s");
+         (chooses_steps(method) ? "a tolerance of " + quantity(preset.tolerance, "m", 2)
+                                : "dt = " + quantity(preset.dt, "s", 2));
 }
 
 /// The present settings' cost, processor seconds for a simulated second; none where it is not known.
@@ -150,7 +162,7 @@ std::optional<double> present_cost(const SettingsSearch& search) {
   return search.present->cost;
 }
 
-void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& point) {
+void finder_line(Ui& ui, int n, const SettingsSearch& search, const FinderUnits& units, const ErrorPoint& point) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const FinderColumns at = finder_columns(ui);
@@ -164,11 +176,10 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
   report_control(ui, "setting" + std::to_string(n + 1));
   const bool hovered = ImGui::IsItemHovered();
   const bool own = point.tolerance > 0;
-  const std::string step =
-      own ? "tolerance " + two_digits_of(with.tolerance) + " m" : "dt = " + two_digits_of(with.dt) + " s";
+  const std::string step = own ? "tolerance " + quantity(with.tolerance, "m", 2) : "dt = " + quantity(with.dt, "s", 2);
   tooltip(ui, gui::item_id(),
           (used ? "In use: " : "Click to use ") + std::string(scheme(point.integrator).title) + " with " + step + ": " +
-              two_digits_of(point.cost) + " s of CPU time per simulated second.");
+              quantity(point.cost, "s", 2) + " of CPU time per simulated second.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.whole, lo.y + height}, c.field, ui.theme.px(4));
   const float name = above ? at.whole : at.dt - ui.theme.px(finder_number_at_1 - 10);
@@ -181,8 +192,9 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
   }
   draw_on_baseline(draw, *ui.fonts.small, {lo.x + margin + mark, baseline}, c.text,
                    fitted(*ui.fonts.small, std::string(scheme(point.integrator).title), name - mark));
-  finder_number(ui, *ui.fonts.mono, lo.x + at.dt, middle, c.text, own ? "own" : two_digits_of(with.dt));
-  finder_number(ui, *ui.fonts.mono, lo.x + at.error, middle, c.text, two_digits_of(point.error_rms_m));
+  finder_number(ui, *ui.fonts.mono, lo.x + at.dt, middle, c.text, own ? "own" : two_digits_of(with.dt / units.dt.size));
+  finder_number(ui, *ui.fonts.mono, lo.x + at.error, middle, c.text,
+                two_digits_of(point.error_rms_m / units.error.size));
   const auto present = present_cost(search);
   finder_number(ui, *ui.fonts.mono, lo.x + at.cost, middle, c.text,
                 two_digits_of(present ? point.cost / *present : point.cost));
@@ -205,15 +217,16 @@ void finder_answer(Ui& ui, const SettingsSearch& search, double tolerance) {
               finder_words(search, tolerance, ui.session.requested_preset(), ui.session.studies.settings.stopped()));
   if (search.done)
     if (const auto refusal = refusal_of(search, tolerance)) {
-      if (refusal->tightest && text_button(ui, ("Use " + two_digits_of(*refusal->tightest) + " m").c_str(), true))
+      if (refusal->tightest && text_button(ui, ("Use " + quantity(*refusal->tightest, "m", 2)).c_str(), true))
         ui.act([tightest = *refusal->tightest](Ui& later) { type_target(later, tightest); });
       return;
     }
   const std::vector<ErrorPoint> reached = settings_for(search, tolerance);
   if (reached.empty()) return;
   const bool present = same_settings(search.of, ui.session.requested_preset());
-  finder_head(ui, !present_cost(search) ? nullptr : present ? "now" : "before");
-  for (std::size_t n = 0; n < reached.size(); ++n) finder_line(ui, int(n), search, reached[n]);
+  const FinderUnits units = finder_units(reached);
+  finder_head(ui, units, !present_cost(search) ? nullptr : present ? "now" : "before");
+  for (std::size_t n = 0; n < reached.size(); ++n) finder_line(ui, int(n), search, units, reached[n]);
 }
 
 void finder_part(Ui& ui) {
@@ -249,8 +262,8 @@ std::string finder_words(const SettingsSearch& search, double tolerance, const P
                    : "Trying methods: " + tried + " done, " + settings;
   }
   if (const auto refusal = refusal_of(search, tolerance)) return refusal->words;
-  std::string words = "Largest rms position errors over the " + two_digits_of(search.seconds) +
-                      " s from t = " + short_number(search.t) + " s. Click a setting to use it.";
+  std::string words = "Largest rms position errors over the " + quantity(search.seconds, "s", 2) +
+                      " from t = " + short_number(search.t) + " s. Click a setting to use it.";
   if (search.seconds < 0.99 * search.goal.seconds)
     words +=
         " The time is this short because fine runs of a whole second of this cloth would take too long, and no contact "
@@ -258,8 +271,8 @@ std::string finder_words(const SettingsSearch& search, double tolerance, const P
         "follows in the rest of it.";
   if (search.present && std::isfinite(search.present->error_rms_m))
     words += (same_settings(search.of, now) ? " Now" : " Before, with " + setting_words(search.of)) + ": error " +
-             two_digits_of(search.present->error_rms_m) + " m, " + two_digits_of(search.present->cost) +
-             " s of CPU time per simulated second.";
+             quantity(search.present->error_rms_m, "m", 2) + ", " + quantity(search.present->cost, "s", 2) +
+             " of CPU time per simulated second.";
   return words;
 }
 

@@ -104,12 +104,12 @@ std::string all_values(const Line& line, const double* values) {
   return text;
 }
 
-bool in_range(Ui& ui, const Line& line, double value) {
+/// `now`: what the value is instead.
+bool in_range(Ui& ui, const Line& line, double value, double now) {
   if (value >= line.min && value <= line.max && (!line.integer || value == std::round(value))) return true;
-  const std::string unit = line.unit.empty() ? "" : " " + std::string(line.unit);
-  ui.refuse_number(std::string(line.symbol) + " ranges from " + short_number(line.min) + " to " +
-                   short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
-                   short_number(value) + " was not accepted.");
+  ui.refuse_number(std::string(line.symbol) + " ranges from " + power_number(line.min) + " to " +
+                   quantity(line.max, line.unit) + (line.integer ? " in whole numbers" : "") + "; it stays at " +
+                   quantity(now, line.unit) + ".");
   return false;
 }
 
@@ -121,7 +121,7 @@ void take(Ui& ui, const Line& line, int k, const SliderResult& result, unsigned 
     next[k] = line.saved[k];
   } else if (!due || result.value == line.value[k]) {
     return;
-  } else if (!in_range(ui, line, result.value)) {
+  } else if (!in_range(ui, line, result.value, line.value[k])) {
     if (result.typed != 0) type_again(ui.slider, result.typed);
     return;
   } else {
@@ -142,8 +142,7 @@ void row_tooltip(Ui& ui, const Line& line) {
   wrapped(ui, std::string(line.quantity) + " · " + std::string(line.storhet), c.text);
   ImGui::PopFont();
   wrapped(ui, line.help, c.text);
-  std::string facts = short_number(line.min) + " to " + short_number(line.max);
-  if (!line.unit.empty()) facts += " " + std::string(line.unit);
+  std::string facts = power_number(line.min) + " to " + quantity(line.max, line.unit);
   if (line.zero_is_off) facts += ", 0 is off";
   if (!line.equation.empty()) facts += " · " + equation_of_report(line.equation);
   wrapped(ui, facts, c.quiet);
@@ -170,7 +169,7 @@ void copy_items(Ui& ui, const Line& line) {
   for (const double factor : {0.5, 2.0}) {
     const double value = line.integer ? std::round(factor * line.value[0]) : factor * line.value[0];
     if (value == line.value[0] || value < line.min || value > line.max) continue;
-    if (ImGui::MenuItem(("Add a copy with " + line.key + " = " + short_number(value)).c_str())) add(value);
+    if (ImGui::MenuItem(("Add a copy with " + line.key + " = " + quantity(value, line.unit)).c_str())) add(value);
     report_control(ui, factor < 1 ? "copy_half" : "copy_double");
   }
   ImGui::AlignTextToFramePadding();
@@ -179,7 +178,8 @@ void copy_items(Ui& ui, const Line& line) {
   ImGui::SetNextItemWidth(ui.theme.px(88));
   char typed[40] = "";
   if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
-    if (const auto value = typed_number(typed, line.unit); value && in_range(ui, line, *value)) add(*value);
+    if (const auto value = typed_number(typed, line.unit); value && in_range(ui, line, *value, line.value[0]))
+      add(*value);
     if (*typed != 0 && !typed_number(typed, line.unit))
       ui.session.messages.error(std::string("“") + typed + "” is not a number, so no copy was added.");
     ImGui::CloseCurrentPopup();
@@ -242,8 +242,8 @@ void vector_cells(Ui& ui, const Line& line, const RowColumns& columns, float sli
   take_wanted_focus(ui, line.key);
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, ui.theme.px(4));
-    const SliderResult result =
-        drag_cell(ui, names[k], scale_of(ui, line, k), line.value[k], cell, columns.height, line.unit);
+    const SliderResult result = drag_cell(ui, names[k], scale_of(ui, line, k), line.value[k], cell, columns.height,
+                                          std::string(line.symbol) + "_" + names[k], line.unit);
     if (ui.controls) report_control(ui, line.key + "." + names[k]);
     take(ui, line, k, result, ImGui::GetID(names[k]));
   }
@@ -273,7 +273,9 @@ void draw_line(Ui& ui, const Line& line) {
     const bool dragging = ui.slider.dragged == gesture;
     const double shown = dragging ? ui.slider.value : line.value[0];
     take(ui, line, 0,
-         value_cell(ui, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.unit), 0);
+         value_cell(ui, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.symbol,
+                    line.unit),
+         0);
     if (ui.controls) report_control(ui, line.key + ".value");
   }
   draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,

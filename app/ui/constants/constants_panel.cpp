@@ -15,6 +15,7 @@
 #include "core/forces/contact.h"
 #include "core/integrators/scheme.h"
 #include "core/model/notation.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -66,6 +67,104 @@ void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle,
   style.width = 3;
   const ImVec2 ends[] = {{left, std::round(middle)}, {left + theme.px(24), std::round(middle)}};
   draw_styled_line(draw, ends, 2, style, theme.scale);
+}
+
+enum class MethodGroup { report, explicit_, implicit, games };
+constexpr std::array<const char*, 4> method_groups{"IN THE REPORT", "EXPLICIT", "IMPLICIT", "AS IN GAMES"};
+
+MethodGroup group_of(const Scheme& scheme) {
+  static constexpr std::array<std::string_view, 3> report{"euler", "improved_euler", "verlet"};
+  if (std::find(report.begin(), report.end(), scheme.name) != report.end()) return MethodGroup::report;
+  if (projects(scheme) || counts_passes(scheme)) return MethodGroup::games;
+  return is_implicit(scheme) || solves_damping(scheme) ? MethodGroup::implicit : MethodGroup::explicit_;
+}
+
+/// By groups, in each in the order of the table.
+std::vector<const Scheme*> grouped_methods() {
+  std::vector<const Scheme*> list;
+  for (const Scheme& scheme : schemes()) list.push_back(&scheme);
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Scheme* a, const Scheme* b) { return group_of(*a) < group_of(*b); });
+  return list;
+}
+
+std::string order_digits(const Scheme& scheme) {
+  const std::string damped = std::to_string(scheme.order_damped), undamped = std::to_string(scheme.order_undamped);
+  return damped == undamped ? damped : damped + " or " + undamped;
+}
+
+/// The largest dt that is stable in any shape with these constants.
+std::string limit_words(const Scheme& scheme, const Preset& preset) {
+  if (chooses_steps(scheme)) return "own steps";
+  if (!has_step_limit(scheme)) return "none";
+  const double limit = stable_dt(preset, std::string(scheme.name));
+  return limit == 0 ? "unstable" : std::isinf(limit) ? "none" : quantity(limit, "s", 2);
+}
+
+/// What the list says at the right of each method: worked out when it is opened, since that takes milliseconds.
+const std::vector<std::string>& limits_of_methods(Ui& ui, const std::vector<const Scheme*>& list) {
+  if (ImGui::IsWindowAppearing() || ui.methods.limits.size() != list.size()) {
+    ui.methods.limits.clear();
+    for (const Scheme* scheme : list) ui.methods.limits.push_back(limit_words(*scheme, ui.session.requested_preset()));
+  }
+  return ui.methods.limits;
+}
+
+void choose_method(Ui& ui, const Scheme& choice) {
+  if (choice.name == ui.session.requested_preset().integrator) return;
+  Preset next = ui.session.requested_preset();
+  next.integrator = choice.name;
+  ui.session.propose(std::move(next));
+}
+
+/// All methods in groups, with their order and their limit of dt in columns; arrow keys and Enter choose too.
+void method_list(Ui& ui, const Scheme& now) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont& small = *ui.fonts.small;
+  const std::vector<const Scheme*> list = grouped_methods();
+  const std::vector<std::string>& limits = limits_of_methods(ui, list);
+  MethodList& methods = ui.methods;
+  if (ImGui::IsWindowAppearing())
+    methods.selected = int(std::find(list.begin(), list.end(), &now) - list.begin()), methods.go = 0;
+  const bool moved = methods.go != 0;
+  methods.selected = std::clamp(methods.selected + std::exchange(methods.go, 0), 0, int(list.size()) - 1);
+  float titles = 0, last = text_width(small, "dt at most");
+  for (std::size_t k = 0; k < list.size(); ++k)
+    titles = std::max(titles, text_width(*ui.fonts.text, list[k]->title)),
+    last = std::max(last, text_width(small, limits[k]));
+  const float sample = ui.theme.px(34), gap = ui.theme.px(16),
+              order_end = sample + titles + gap + text_width(small, "2 or 4");
+  const float width = std::max(order_end + gap + last, ImGui::GetContentRegionAvail().x);
+  const auto columns = [&](ImVec2 lo, float height, ImU32 color, const std::string& order, const std::string& limit) {
+    const float baseline = baseline_at(ui.fonts, lo.y + height / 2);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw_on_baseline(draw, small, {lo.x + width - last - gap - text_width(small, order), baseline}, color, order);
+    draw_on_baseline(draw, small, {lo.x + width - text_width(small, limit), baseline}, color, limit);
+  };
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Scheme& choice = *list[k];
+    if (k == 0 || group_of(choice) != group_of(*list[k - 1])) {
+      const ImVec2 lo = ImGui::GetCursorScreenPos();
+      menu_heading(ui, method_groups[std::size_t(group_of(choice))]);
+      if (k == 0) columns({lo.x, lo.y + ui.theme.px(4)}, small.FontSize, c.quiet, "order", "dt at most");
+    }
+    const ImVec2 lo = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetTextLineHeight();
+    ImGui::PushID(int(k));
+    if (ImGui::Selectable("##method", int(k) == methods.selected, 0, {width, height})) choose_method(ui, choice);
+    report_control(ui, choice.name);
+    if (moved && int(k) == methods.selected) ImGui::SetScrollHereY(0.5f);
+    tooltip(ui, gui::item_id(), sentence(order_text(choice)) + " " + std::string(choice.note), choice.source);
+    ImGui::PopID();
+    draw_sample(ui.theme, *ImGui::GetWindowDrawList(), lo.x + ui.theme.px(2), lo.y + height / 2, choice);
+    draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.text,
+                     {lo.x + sample, baseline_at(ui.fonts, lo.y + height / 2)}, c.text, choice.title);
+    columns(lo, height, choice.name == now.name ? c.text : c.quiet, order_digits(choice), limits[k]);
+  }
+  more_below(ui);
+  if (!std::exchange(methods.enter, false)) return;
+  choose_method(ui, *list[std::size_t(methods.selected)]);
+  ImGui::CloseCurrentPopup();
 }
 
 std::string pins_text(const Pins& pins) {
@@ -142,7 +241,9 @@ void integrator_row(Ui& ui) {
   const float width = ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const std::string room = "           ", label = room + std::string(now.title);
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {1e9f, ImGui::GetIO().DisplaySize.y - ui.theme.px(24)});
   const bool open = begin_combo(ui, "##integrator", label.c_str(), width);
+  ui.methods.open = open;
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (!open) {
@@ -154,20 +255,7 @@ void integrator_row(Ui& ui) {
     tooltip(ui, gui::item_id(), sentence(order_text(now)) + " " + std::string(now.note), now.source);
     return;
   }
-  for (const Scheme& choice : schemes()) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const std::string name = room + std::string(choice.title);
-    const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
-    draw_sample(ui.theme, *ImGui::GetWindowDrawList(), at.x + ui.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
-                choice);
-    if (chosen && choice.name != now.name) {
-      Preset next = ui.session.requested_preset();
-      next.integrator = choice.name;
-      ui.session.propose(std::move(next));
-    }
-    report_control(ui, choice.name);
-    tooltip(ui, gui::item_id(), sentence(order_text(choice)) + " " + std::string(choice.note), choice.source);
-  }
+  method_list(ui, now);
   end_combo();
 }
 
@@ -175,7 +263,6 @@ bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
   if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
   if (row.key == "iterations") return iterates(scheme(preset.integrator));
-  if (row.key == "gust" && preset.W == glm::dvec3(0)) return false;
   if (row.key == "gust_period" && !gusts(preset)) return false;
   return !row.only_one_kind || row.only == preset.kind;
 }

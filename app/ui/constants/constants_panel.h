@@ -107,7 +107,7 @@ void stability_row(Ui& ui);
 
 /// The gauge's number: "57 %", "no limit", "unstable at any dt".
 std::string stability_text(const StabilityLimits& limits, double dt);
-/// "dt is 75 % of the worst-case limit and 58 % of this cloth's own, as it hangs now." Of the mass on a spring "dt is
+/// "dt is 75 % of the worst-case limit, 58 % of this cloth's as it hangs now." Of the mass on a spring "dt is
 /// 75 % of the limit." Empty where there is no limit, or none that is stable.
 std::string part_words(const StabilityLimits& limits, double dt);
 /// The bar's tooltip.

@@ -1,4 +1,5 @@
 // The variables of table B.1, live, for the picked particle.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -58,7 +59,8 @@ void variable_tooltip(Ui& ui, ImGuiID id, const Variable& what, const glm::dvec3
   wrapped(ui, std::string(what.quantity) + " · " + std::string(what.storhet), c.text);
   ImGui::PopFont();
   wrapped(ui, what.help, c.text);
-  wrapped(ui, steady_vector(value) + " " + std::string(what.unit), c.text);
+  const ScaledUnit in = scaled_unit(std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)}), what.unit);
+  wrapped(ui, steady_vector(value / in.size) + " " + in.name, c.text);
   if (without_contact)
     wrapped(ui,
             "The particle lies on a body. Contact corrects position and velocity after each step and is not a force of "
@@ -73,6 +75,15 @@ float line_height(const Ui& ui) {
   return ui.theme.px(20);
 }
 
+constexpr float unit_at_1 = 24;  // of "mN", px at scale 1
+
+/// A number of a table whose unit suits its largest: three digits of that one, and two of what is far smaller.
+std::string in_table(double value) {
+  const double size = std::abs(value);
+  if (size != 0 && size < 5e-4) return power_number(value, 2);
+  return size < 0.0995 ? short_number(rounded(value, 2)) : steady_number(value);
+}
+
 /// Where numbers end, from the left of the panel: one grid for forces (two to a line) and motion (three to a line).
 struct Grid {
   float first_end, middle_end, last_end;  ///< of numbers; units stand behind them
@@ -80,7 +91,7 @@ struct Grid {
 };
 
 Grid grid(const Ui& ui) {
-  const float newton = ui.theme.px(18), gap = ui.theme.px(8);
+  const float newton = ui.theme.px(unit_at_1), gap = ui.theme.px(8);
   const float last = ui.row_width - ui.theme.px(34), first = std::floor((last - newton - gap) / 2);
   return {first, std::floor((first + last) / 2), last, first + newton + gap};
 }
@@ -140,7 +151,7 @@ void tick_and_sample(Ui& ui, std::string_view key, float left, float middle) {
 /// A variable's symbol with the sample of its curve, its numbers, its unit. The numbers end at those distances from the
 /// left edge, the unit follows the last.
 void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float width,
-                   std::span<const std::string> numbers, std::span<const float> ends) {
+                   std::span<const double> numbers, std::span<const float> ends, const ScaledUnit& unit) {
   const Tokens& c = ui.theme.colors;
   const Variable& what = variable(key);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -158,24 +169,25 @@ void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout,
   if (lacks_contact(readout, key)) contact_mark(ui, symbol, what.symbol);
   const ImFont& mono = *ui.fonts.mono;
   for (std::size_t k = 0; k < ends.size(); ++k) {
-    const std::string text = readout != nullptr ? numbers[k] : "–";
+    const std::string text = readout != nullptr ? in_table(numbers[k] / unit.size) : "–";
     draw_on_baseline(draw, mono, {lo.x + ends[k] - text_width(mono, text), baseline}, c.text, text);
   }
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ends.back() + ui.theme.px(5), baseline}, c.quiet, what.unit);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ends.back() + ui.theme.px(5), baseline}, c.quiet, unit.name);
 }
 
 /// Its magnitude ends `end` after the cell's left edge.
-void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end) {
-  const std::string magnitude = steady_number(glm::length(value_of(ui, readout, key)));
-  variable_cell(ui, key, readout, end + ui.theme.px(18), {&magnitude, 1}, {&end, 1});
+void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end, const ScaledUnit& unit) {
+  const double magnitude = glm::length(value_of(ui, readout, key));
+  variable_cell(ui, key, readout, end + ui.theme.px(unit_at_1), {&magnitude, 1}, {&end, 1}, unit);
 }
 
 /// Three components.
 void motion_line(Ui& ui, std::string_view key, const ParticleReadout* readout, const Grid& columns) {
   const glm::dvec3 value = value_of(ui, readout, key);
-  const std::string numbers[3] = {steady_number(value.x), steady_number(value.y), steady_number(value.z)};
+  const double numbers[3] = {value.x, value.y, value.z};
+  const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
   const float ends[3] = {columns.first_end, columns.middle_end, columns.last_end};
-  variable_cell(ui, key, readout, ui.row_width, numbers, ends);
+  variable_cell(ui, key, readout, ui.row_width, numbers, ends, scaled_unit(largest, variable(key).unit));
 }
 
 constexpr const char* card_title = "Picked particle";
@@ -215,11 +227,14 @@ void particle_panel(Ui& ui) {
   if (ui.session.picked)
     readout = ui.session.simulation->particle(ui.session.picked->i, ui.session.picked->j), shown = &readout;
   const Grid columns = grid(ui);
+  double largest = 0;
+  for (const std::string_view key : forces) largest = std::max(largest, glm::length(value_of(ui, shown, key)));
+  const ScaledUnit newtons = scaled_unit(largest, "N");
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const bool right = k % 2 == 1;
     if (right)
       ImGui::SameLine(0, 0), ImGui::SetCursorScreenPos({lo.x + columns.second_start, ImGui::GetCursorScreenPos().y});
-    force_cell(ui, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end);
+    force_cell(ui, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end, newtons);
   }
   // F stands alone on the last line of the forces.
   if (lacks_contact(shown, "F")) contact_note(ui, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});

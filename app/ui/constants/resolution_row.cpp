@@ -56,9 +56,8 @@ void question_part(Ui& ui, const ResolutionQuestion& question) {
   const std::string asks = count_of(now) + " → " + count_of(more) + ": what is meant?";
   wrapped(ui, in_lines(*ui.fonts.text, with_whole_terms(asks), ui.row_width), ui.theme.colors.text);
   if (const auto& same = question.same_size) {
-    const std::string result = count_of(*same) + ", " + size_of(now) +
-                               " as now; L = " + short_number(rounded(same->L, 3)) +
-                               " m, dt = " + short_number(rounded(same->dt, 3)) + " s";
+    const std::string result = count_of(*same) + ", " + size_of(now) + " as now; L = " + quantity(same->L, "m", 3) +
+                               ", dt = " + quantity(same->dt, "s", 3);
     if (answer(ui, grows ? "Same size, finer" : "Same size, coarser", result, true)) answer_later(ui, true);
     tooltip(ui, gui::item_id(), "The same cloth of other springs: mass and stretch behavior stay", "Enter");
   }

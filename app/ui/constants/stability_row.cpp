@@ -12,8 +12,15 @@
 namespace tyglab {
 namespace {
 
+constexpr double in_times = 1.95;  // from here on a part is said in times rather than in percent
+
 std::string percent(double part) {
   return short_number(rounded(100 * part, part < 1 ? 2 : 3)) + " %";
+}
+
+/// "75 % of", "35 times".
+std::string part_of(double part) {
+  return part < in_times ? percent(part) + " of" : power_number(rounded(part, 2)) + " times";
 }
 
 bool has_limit(const StabilityLimits& limits) {
@@ -28,7 +35,7 @@ std::optional<double> own_limit(const StabilityLimits& limits) {
 
 /// Which shape of the cloth its own limit belongs to.
 std::string when(const StabilityLimits& limits) {
-  return limits.at_start ? "as it starts" : "as it hangs now";
+  return limits.at_start ? "at the start" : "as it hangs now";
 }
 
 Zone zone_at(const StabilityLimits& limits, double dt) {
@@ -117,15 +124,16 @@ double gauge_position(const StabilityLimits& limits, double dt) {
 
 std::string stability_text(const StabilityLimits& limits, double dt) {
   if (std::isinf(limits.any)) return "no limit";
-  return limits.any > 0 ? percent(dt / limits.any) : "unstable at any dt";
+  if (limits.any == 0) return "unstable at any dt";
+  const double part = dt / limits.any;
+  return part < in_times ? percent(part) : power_number(rounded(part, 2)) + " ×";
 }
 
 std::string part_words(const StabilityLimits& limits, double dt) {
   if (!has_limit(limits)) return "";
   const bool cloth = limits.of.kind == Kind::cloth;
-  std::string text = "dt is " + percent(dt / limits.any) + " of the " + (cloth ? "worst-case limit" : "limit");
-  if (const auto own = own_limit(limits))
-    text += " and " + percent(dt / *own) + " of this cloth's own, " + when(limits);
+  std::string text = "dt is " + part_of(dt / limits.any) + " the " + (cloth ? "worst-case limit" : "limit");
+  if (const auto own = own_limit(limits)) text += ", " + part_of(dt / *own) + " this cloth's " + when(limits);
   return text + ".";
 }
 
@@ -134,11 +142,11 @@ std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
   if (!has_limit(limits)) return marks;
   const bool cloth = limits.of.kind == Kind::cloth;
   const std::string method(scheme(limits.of.integrator).title);
-  const auto seconds = [](double value) { return short_number(rounded(value, 3)) + " s"; };
+  const auto seconds = [](double value) { return quantity(value, "s", 3); };
   if (const auto own = own_limit(limits))
     marks.push_back({"this cloth", *own,
-                     "Dot: this cloth's own limit, " + when(limits) + ": " + seconds(*own) +
-                         ", from its fastest mode, ω = " + short_number(rounded(limits.omega, 3)) +
+                     "Dot: this cloth's own limit " + when(limits) + ": " + seconds(*own) +
+                         ", from its fastest mode, ω = " + power_number(rounded(limits.omega, 3)) +
                          " 1/s. It changes with the shape and promises nothing: slack cloths without damping have "
                          "diverged at 63 % of it."});
   marks.push_back({"worst case", limits.any,

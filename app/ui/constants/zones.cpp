@@ -21,7 +21,7 @@ std::string no_part_of_it(std::string_view key) {
 
 /// A border in the digits in which it is worth saying.
 std::string border_text(double value, std::string_view unit) {
-  return short_number(rounded(value, 3)) + (unit.empty() ? "" : " " + std::string(unit));
+  return quantity(value, unit, 3);
 }
 
 /// "stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape above that".

@@ -195,14 +195,14 @@ void export_dialog(Ui& ui) {
   wrapped(ui, what.holds, ui.theme.colors.quiet);
   label(ui, "File");
   if (path_field(ui, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
-  if (!may_write(ui, "Write")) return;
+  if (!may_write(ui, "Export")) return;
   const fs::path file = path_of(dialog.path);
   close(ui);
   ui.act([&what, file](Ui& u) {
     try {
       what.write(u, file);
       hand_out(file);
-      u.messages.note("Wrote " + file.string());
+      u.messages.note("Exported " + file.string());
     } catch (const std::runtime_error& error) {
       u.messages.error(error.what());
     }
@@ -223,6 +223,68 @@ void picture_dialog(Ui& ui) {
   const PictureOrder order{file, dialog.whole_window};
   close(ui);
   ui.act([order](Ui& u) { u.picture = order; });
+}
+
+/// Into a folder of its own, from the present moment on.
+void film_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Export a film");
+  wrapped(
+      ui,
+      "Numbered PNG images of the cloth and its legend, 25 for each second that the window would show, however long "
+      "they take. Any video program joins them, such as ffmpeg.",
+      ui.theme.colors.quiet);
+  label(ui, "Seconds");
+  bool edited = text_field(ui, "##seconds", dialog.seconds, false);
+  label(ui, "Folder");
+  edited |= path_field(ui, ImGui::IsWindowAppearing());
+  if (edited) dialog.overwrite = false, dialog.problem.clear();
+  problem(ui);
+  if (dialog.overwrite)
+    wrapped(ui, "That folder has files in it. Images of the same names are replaced.", ui.theme.colors.warning);
+  const bool go =
+      text_button(ui, dialog.overwrite ? "Export anyway" : "Export", true, dialog.path[0] != 0) || dialog.enter;
+  ImGui::SameLine();
+  if (text_button(ui, "Cancel")) return close(ui);
+  if (!go || dialog.path[0] == 0) return;
+  constexpr double longest = 3600;  // s
+  const auto seconds = typed_number(dialog.seconds, "s");
+  if (!seconds || !(*seconds > 0 && *seconds <= longest)) {
+    dialog.problem = std::string("“") + dialog.seconds + "” is not a time up to an hour; type one such as 10.";
+    return;
+  }
+  const fs::path folder = path_of(dialog.path);
+  std::error_code error;
+  if (fs::create_directories(folder, error); error || !fs::is_directory(folder, error))
+    return refuse(dialog, folder.string() + ": the folder cannot be created; choose another.");
+  if (!dialog.overwrite && !fs::is_empty(folder, error)) return void(dialog.overwrite = true);
+  FilmOrder film;
+  film.folder = folder, film.count = std::max<std::int64_t>(1, std::llround(*seconds * FilmOrder::fps));
+  close(ui);
+  ui.film = film;
+  ui.session.pacing.playing = true;
+}
+
+void course_page_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Course page");
+  wrapped(ui, "The address of the Tyglab page that your students use. Copied links and embed code begin with it.",
+          ui.theme.colors.quiet);
+  label(ui, "Address; empty for none");
+  if (path_field(ui, ImGui::IsWindowAppearing())) dialog.problem.clear();
+  problem(ui);
+  const bool go = text_button(ui, "Keep", true) || dialog.enter;
+  ImGui::SameLine();
+  if (text_button(ui, "Cancel")) return close(ui);
+  if (!go) return;
+  std::string address(trimmed(dialog.path));
+  address.resize(std::min(address.find_first_of("?#"), address.size()));  // a link was pasted
+  if (!address.empty() && (address[0] == '#' || !is_link(address)))
+    return refuse(dialog, "An address begins with https:// or http://.");
+  if (address.find_first_of("\"<> ") != std::string::npos)
+    return refuse(dialog, "An address has no spaces and quotes.");
+  ui.settings.course_page = std::move(address);
+  close(ui);
 }
 
 void texture_dialog(Ui& ui) {
@@ -321,6 +383,10 @@ void contents(Ui& ui) {
       return texture_dialog(ui);
     case DialogKind::picture:
       return picture_dialog(ui);
+    case DialogKind::film:
+      return film_dialog(ui);
+    case DialogKind::course_page:
+      return course_page_dialog(ui);
     case DialogKind::unsaved:
       return unsaved_dialog(ui);
     case DialogKind::large_cloth:
@@ -358,6 +424,10 @@ void open_dialog(Ui& ui, DialogKind kind) {
     dialog.path_follows = true;
   } else if (kind == DialogKind::picture) {
     set(dialog.path, (here / (ui.session.document.label + ".png")).string());
+  } else if (kind == DialogKind::course_page) {
+    set(dialog.path, ui.settings.course_page);
+  } else if (kind == DialogKind::film) {
+    set(dialog.path, (here / (ui.session.document.label + "_film")).string());
   } else if (kind == DialogKind::write_export) {
     set(dialog.path, (here / dialog.exporting->writes->file).string());
   }

@@ -1,8 +1,10 @@
 // Files that the window can export, one row each.
 #include <array>
 
+#include "app/platform/platform.h"
 #include "app/session/recorded.h"
 #include "app/ui/frame/commands.h"
+#include "app/ui/frame/panels.h"
 #include "app/ui/kit/chart.h"
 #include "core/analysis/machine.h"
 #include "core/io/output_file.h"
@@ -25,6 +27,10 @@ std::string forces(Ui& ui) {
                              ? "particle " + std::to_string(site.i) + " " + std::to_string(site.j)
                              : "all particles";
   return series(ui, ui.session.recorded.forces, force_columns(source), "magnitudes of the forces on " + of + ", ");
+}
+
+std::string energies(Ui& ui) {
+  return series(ui, ui.session.recorded.energy, energy_column_list());
 }
 
 std::string height(Ui& ui) {
@@ -88,11 +94,22 @@ void map_picture(Ui& ui, const std::filesystem::path& file) {
 constexpr const char* rows_of_samples =
     "One row per sample in the plot: t and a column for each curve, units in the header.";
 
+std::string no_energies(const Ui& ui) {
+  return ui.session.recorded.energy.empty() ? "No energies have been recorded: open the Energy card and run." : "";
+}
 std::string export_no_weight(const Ui& ui) {
   return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
 }
 std::string export_no_cloth(const Ui& ui) {
   return ui.session.preset().kind == Kind::cloth ? "" : "That needs a cloth; this is a mass on a spring.";
+}
+std::string no_film(const Ui& ui) {
+  if (files_are_handed_out()) return "A page cannot write a folder of images: record the screen, or use the program.";
+  return ui.session.simulation->divergence() ? "The cloth has diverged; restart it before a film." : "";
+}
+void film_dialog_or_stop(Ui& ui) {
+  if (!ui.film) return open_dialog(ui, Dialog::Kind::film);
+  ui.film->count = ui.film->frame;  // ends it
 }
 std::string no_mesh(const Ui& ui) {
   return ui.session.preset().kind == Kind::cloth ? "" : "OBJ export needs a cloth; this is a mass on a spring.";
@@ -112,17 +129,19 @@ std::vector<CommandRow> export_rows() {
                        std::string (*why_not)(const Ui&) = nullptr) -> CommandRow& {
     return rows.emplace_back(CommandRow{id, name, "", {}, "", also, nullptr, why_not, writes});
   };
-  add("export_forces", "Export forces as CSV…", "write plot series",
+  add("export_forces", "Export forces as CSV…", "plot series",
       {"Export forces as CSV",
        "One row per sample in the plot: t and the magnitude of each force, units in the header.", "forces.csv",
        text_file<forces>});
-  add("export_height", "Export height as CSV…", "write plot series weight mass",
+  add("export_energy", "Export energies as CSV…", "plot series kinetic elastic ledger",
+      {"Export energies as CSV", rows_of_samples, "energy.csv", text_file<energies>}, no_energies);
+  add("export_height", "Export height as CSV…", "plot series weight mass",
       {"Export height as CSV", rows_of_samples, "height.csv", text_file<height>}, export_no_weight);
-  add("export_map", "Export map as CSV…", "write stability",
+  add("export_map", "Export map as CSV…", "stability",
       {"Export map of stiffness and dt as CSV",
        "One row per measured cell: stiffness, dt, the short run's result, the worst-case limit of dt.", "map.csv",
        text_file<map>});
-  add("export_map_picture", "Export map as PNG…", "write stability picture image",
+  add("export_map_picture", "Export map as PNG…", "stability picture image",
       {"Export map of stiffness and dt as PNG", "An image of the map as far as it has been measured.", "map.png",
        map_picture});
   add("export_copies", "Export distances of the copies as CSV…", "write lockstep",
@@ -132,6 +151,14 @@ std::vector<CommandRow> export_rows() {
        "One row per particle as it is now, one column for each quantity that can color the cloth.", "values.csv",
        text_file<values>},
       export_no_cloth);
+  rows.push_back({"export_film",
+                  "Export film…",
+                  "",
+                  {},
+                  "",
+                  "video record movie animation clip images sequence png",
+                  film_dialog_or_stop,
+                  no_film});
   CommandRow& obj = add("export_mesh", "Export OBJ…", "write cloth mesh wavefront blender 3d geometry",
                         {"Export OBJ",
                          "A mesh for other programs: positions in m, texture coordinates, normals, and the triangles "

@@ -45,15 +45,34 @@ void copy_as_options(Ui& ui) {
   ui.messages.note("Copied the constants as --set options.");
 }
 
-/// A page's whole address; elsewhere the link alone, which any page and the command line take.
+/// Where copied links begin: the course's page, or the page that this runs in.
+std::string link_address(const Ui& ui) {
+  return ui.settings.course_page.empty() ? page_address() : ui.settings.course_page;
+}
+
+void note_copied(Ui& ui, std::string what) {
+  const std::string& texture = ui.session.requested_preset().texture;
+  if (!texture.empty() && !is_shipped_texture(texture)) what += " Its own texture is not in it.";
+  ui.messages.note(std::move(what));
+}
+
+/// With the address of a page; where none is known the link alone, which any page and the command line take.
 void copy_link(Ui& ui) {
-  const Preset preset = ui.session.requested_preset();
-  const std::string address = page_address(), link = link_to(preset, ui.session.document.label);
-  ImGui::SetClipboardText((address + link).c_str());
-  std::string note = "Copied the link to these constants";
-  if (address.empty()) note += ", to be put at the end of a Tyglab page's address, or to be opened with tyglab 'LINK'";
-  if (!preset.texture.empty() && !is_shipped_texture(preset.texture)) note += "; its own texture is not in it";
-  ui.messages.note(note + ".");
+  const std::string address = link_address(ui);
+  ImGui::SetClipboardText((address + link_to(ui.session.requested_preset(), ui.session.document.label)).c_str());
+  note_copied(
+      ui, address.empty() ? "Link copied, without an address: “Course page…”, in Ctrl+P, sets one." : "Link copied.");
+}
+
+std::string no_address(const Ui& ui) {
+  return link_address(ui).empty() ? "Set the address of your Tyglab page first: “Course page…”, in Ctrl+P." : "";
+}
+
+void copy_embed_code(Ui& ui) {
+  const std::string link = link_to(ui.session.requested_preset(), ui.session.document.label);
+  const auto& lab = ui.session.labs.run;
+  ImGui::SetClipboardText(embed_code(link_address(ui), link, lab ? lab->lab.label : "").c_str());
+  note_copied(ui, "Embed code copied.");
 }
 
 void request_quit(Ui& ui) {
@@ -99,6 +118,21 @@ std::vector<CommandRow> file_rows() {
            true},
           {"load_texture_dialog", "Use image as texture…", "", {}, "", "picture cloth", dialog<Dialog::Kind::texture>},
           {"copy_link", "Copy link", "", {}, "", "share address url browser page clipboard export", copy_link},
+          {"copy_embed_code",
+           "Copy embed code",
+           "",
+           {},
+           "",
+           "iframe html course page link share clipboard",
+           copy_embed_code,
+           no_address},
+          {"course_page",
+           "Course page…",
+           "",
+           {},
+           "",
+           "address url link share embed settings",
+           dialog<Dialog::Kind::course_page>},
           {"copy_options",
            "Copy the constants as --set options",
            "",

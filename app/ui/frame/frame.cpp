@@ -7,6 +7,7 @@
 
 #include "app/ui/frame/panels.h"
 #include "app/ui/state/ui.h"
+#include "core/output/obj.h"
 
 namespace tyglab {
 namespace {
@@ -66,6 +67,25 @@ void act_on_events(Ui& ui, double elapsed, double frame_time) {
   color_copies(ui);
 }
 
+std::optional<double> direct_film(Ui& ui) {
+  if (!ui.film) return std::nullopt;
+  FilmOrder& film = *ui.film;
+  Session& session = ui.session;
+  if (film.frame == film.count || session.simulation->divergence()) {
+    ui.messages.note("Exported " + std::to_string(film.frame) + (film.frame == 1 ? " image" : " images") + " to " +
+                     film.folder.string() + ", " + std::to_string(FilmOrder::fps) + " per second.");
+    ui.film.reset();
+    return std::nullopt;
+  }
+  if (!session.pacing.playing || session.background_steps.busy() || session.rebuild.busy()) return 0;
+  const double t = session.simulation->time(), dt = session.preset().dt;
+  if (film.frame == 0 || t > film.next_t + 1) film.next_t = t;  // or it has been brought elsewhere
+  if (t < film.next_t - dt / 2 && !session.asleep()) return (film.next_t - t) / session.pacing.aim();
+  ui.picture = {film.folder / frame_name(session.document.label, film.frame, film.count, "png"), false};
+  ++film.frame, film.next_t += session.pacing.aim() / FilmOrder::fps;
+  return 0;
+}
+
 void draw_panels(Ui& ui) {
   SliderState& slider = ui.slider;
   slider.order = 0;
@@ -75,6 +95,7 @@ void draw_panels(Ui& ui) {
   if (std::exchange(ui.pointer_before, ui.input.at) != ui.input.at) ui.keys_since_move = false;
   if (!ui.input.keys.empty()) ui.keys_since_move = true;
   ui.covered = ui.help;
+  ui.methods.open = false;  // until it is drawn
   draw_layout(ui, ImGui::GetIO().DisplaySize);
   // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
   if (!slider.focused_seen || ui.tools.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;

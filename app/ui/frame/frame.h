@@ -21,6 +21,9 @@ bool take_look(Ui& ui, float content_scale);
 /// Does what keys, requests and pointer of the frame ask for, and goes on by `elapsed` seconds. `frame_time`: of the
 /// display, s.
 void act_on_events(Ui& ui, double elapsed, double frame_time);
+/// While a film is exported: the time by which the motion is to go on in the next frame, s; orders the picture when the
+/// cloth is where it is due. None: there is no film, or it has ended, which is said.
+std::optional<double> direct_film(Ui& ui);
 /// Draws everything within a frame of Dear ImGui that has begun.
 void draw_panels(Ui& ui);
 /// Changes that follow a while without one are undone apart from those before it.

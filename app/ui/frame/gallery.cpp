@@ -159,7 +159,7 @@ int cards(Ui& ui, const std::vector<int>& found, bool moved) {
     }
     ImGui::Dummy({0, between - ImGui::GetStyle().ItemSpacing.y * 2});
   }
-  if (found.empty()) wrapped(ui, "Nothing has that name. Try another word, or fewer.", ui.theme.colors.quiet);
+  if (found.empty()) wrapped(ui, "No matches.", ui.theme.colors.quiet);
   return clicked;
 }
 

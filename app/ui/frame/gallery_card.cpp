@@ -45,7 +45,7 @@ const std::string& length_of(const GalleryCard& card) {
 /// On the picture, in its corner.
 void draw_length(Ui& ui, const std::string& words, ImVec2 corner) {
   const Tokens& c = ui.theme.colors;
-  const ImFont& small = *ui.fonts.small;
+  const ImFont& small = *ui.fonts.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float wide = text_width(small, words) + ui.theme.px(16), high = small.FontSize + ui.theme.px(8);
   const ImVec2 at{corner.x - wide - ui.theme.px(8), corner.y + ui.theme.px(8)};
@@ -75,7 +75,7 @@ CardShape card_shape(const Ui& ui, float width, bool beside) {
 }
 
 CardText card_text(const Ui& ui, const GalleryCard& card, const CardShape& shape) {
-  const ImFont &title = *ui.fonts.title, &small = *ui.fonts.small;
+  const ImFont &title = *ui.fonts.title, &small = *ui.fonts.text;
   const float room = text_room(ui, shape);
   const std::string number = card.entry.number.empty() ? "" : card.entry.number + "  ";
   CardText text{in_some_lines(title, number + card.entry.title, room, most_title_lines), {}, 0, false};
@@ -108,7 +108,7 @@ void draw_gallery_card(Ui& ui, const GalleryCard& card, ImVec2 lo, const CardSha
                   (shape.beside ? lo.y : corner.y) + ui.theme.px(over_title)};
   draw_text(draw, title, at, c.text, text.title);
   const float under = at.y + float(lines_in(text.title)) * title.FontSize + ui.theme.px(under_title);
-  draw_text(draw, *ui.fonts.small, {at.x, under}, has_problem(card) ? c.warning : c.quiet, text.goal);
+  draw_text(draw, *ui.fonts.text, {at.x, under}, has_problem(card) ? c.warning : c.quiet, text.goal);
   if (!shape.beside && !length_of(card).empty()) draw_length(ui, length_of(card), {hi.x, lo.y});
 }
 

@@ -109,6 +109,15 @@ bool help_takes(Ui& ui, const KeyEvent& event) {
   return true;
 }
 
+/// Arrow keys and Enter choose in the list of methods.
+bool methods_take(Ui& ui, const KeyEvent& event) {
+  const bool enter = event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  const int go = (event.key == GLFW_KEY_DOWN ? 1 : 0) - (event.key == GLFW_KEY_UP ? 1 : 0);
+  if (!ui.methods.open || (!enter && go == 0)) return false;
+  ui.methods.enter |= enter, ui.methods.go += go;
+  return true;
+}
+
 bool list_takes(Ui& ui, const KeyEvent& event) {
   if (!ui.viewport.blocked || event.key != GLFW_KEY_ESCAPE) return false;
   return ui.close_lists = true;
@@ -149,9 +158,9 @@ void command_for(Ui& ui, const KeyEvent& event) {
 
 void take_key(Ui& ui, const KeyEvent& event) {
   const bool taken = dialog_takes(ui, event) || palette_takes(ui, event) || help_takes(ui, event) ||
-                     list_takes(ui, event) || typing_takes(ui, event) || resolution_takes(ui, event) ||
-                     slider_takes(ui, event) || tour_takes(ui, event) || copy_details_take(ui, event) ||
-                     presentation_takes(ui, event);
+                     methods_take(ui, event) || list_takes(ui, event) || typing_takes(ui, event) ||
+                     resolution_takes(ui, event) || slider_takes(ui, event) || tour_takes(ui, event) ||
+                     copy_details_take(ui, event) || presentation_takes(ui, event);
   if (!taken) command_for(ui, event);
 }
 

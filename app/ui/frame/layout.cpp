@@ -37,12 +37,21 @@ void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& w
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
       ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, ui.theme.colors.accent, ui.theme.px(2));
     }
+    if (ImGui::IsItemActivated()) width = (sign > 0 ? x : ImGui::GetIO().DisplaySize.x - x) / ui.theme.scale;
     if (ImGui::IsItemActive())
       width = std::clamp(width + sign * ImGui::GetIO().MouseDelta.x / ui.theme.scale, 240.f, 900.f);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
   ui.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
+}
+
+/// Of a column at the sides, px: `part` of the window at most while nobody has dragged it, so that the cloth has six
+/// tenths of a window of 1280 pixels. For a finger sliders must not be short.
+float side_width(const Ui& ui, float width_at_1, float usual_at_1, float least_at_1, float part, float window) {
+  float width = width_at_1 * ui.theme.scale;
+  if (width_at_1 == usual_at_1) width = std::min(width, std::max(part * window, ui.theme.px(least_at_1)));
+  return width;
 }
 
 /// Where the regions are; what has no width or no height is not there.
@@ -146,8 +155,12 @@ LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   // In a narrow window, or with large text, the sides share what the viewport can spare; a lab's strip needs it wide.
   const float least = has_lab ? wide_strip : narrowest_cloth;
   const float spare = window.x - ui.theme.px(least), most = std::max(spare / 2, ui.theme.px(240));
-  float left = panels && layout.left ? std::round(std::min(layout.left_width * ui.theme.scale, most)) : 0;
-  float right = panels && layout.right ? std::round(std::min(layout.right_width * ui.theme.scale, most)) : 0;
+  const Layout usual;
+  const float left_width =
+      side_width(ui, layout.left_width, usual.left_width, ui.input.by_touch ? 288 : 240, 0.206f, window.x);
+  const float right_width = side_width(ui, layout.right_width, usual.right_width, 240, 0.194f, window.x);
+  float left = panels && layout.left ? std::floor(std::min(left_width, most)) : 0;
+  float right = panels && layout.right ? std::floor(std::min(right_width, most)) : 0;
   // Where both have no room, they take turns in one place.
   const bool shared = left > 0 && left + right > spare;
   if (left + right > spare) right = 0;

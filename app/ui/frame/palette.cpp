@@ -124,7 +124,7 @@ void add_views(std::vector<PaletteEntry>& list) {
 
 void add_colors(const Ui& ui, std::vector<PaletteEntry>& list) {
   const auto colored = [](std::optional<ParticleField> field) { return [field](Ui& u) { u.color_by(field); }; };
-  list.push_back({"Color", "Own colors", "", "cloth texture", "", colored(std::nullopt)});
+  list.push_back({"Color", "Texture", "", "cloth own colors", "", colored(std::nullopt)});
   for (const FieldInfo& field : particle_fields())
     if (why_not_colored(ui.scene, field.field).empty())
       list.push_back({"Color", std::string(field.title), std::string(field.unit),
@@ -195,7 +195,7 @@ int palette_list(Ui& ui, const std::vector<int>& found, float height, bool moved
     palette_row(ui, entry, k == palette.selected, width);
     ImGui::PopID();
   }
-  if (found.empty()) wrapped(ui, "Nothing has that name. Try another word, or fewer.", ui.theme.colors.quiet);
+  if (found.empty()) wrapped(ui, "No matches.", ui.theme.colors.quiet);
   ImGui::EndChild();
   return clicked;
 }
@@ -220,7 +220,7 @@ void palette_contents(Ui& ui, float height) {
   palette.opening = enter && found.empty();  // Enter has taken the keys from the field
 }
 
-/// How well an entry answers to the words, the best 0; none: not at all.
+/// How well an entry answers to the words, the best below 0; none: not at all.
 std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::string> words) {
   const std::string title = lower(entry.title),
                     all = " " + title + " " + lower(entry.also) + " " + lower(entry.group) + " ";
@@ -231,7 +231,11 @@ std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::strin
   if (!holds(all + lower(entry.help), "")) return std::nullopt;
   const std::string first = words.empty() ? "" : words.front();
   const bool key = entry.group == "Constant" && all.find(" " + first + " ") != std::string::npos;
-  const int rank = !holds(all, "")                              ? 3
+  const bool exact = title.starts_with(first + "  ") || lower(entry.also).starts_with(first + " ");  // symbol, key
+  if (entry.group == "Constant" && exact && words.size() == 1) return -1;
+  // A lab takes the place of what is there, so it comes after all others that have such a name.
+  const int rank = !holds(all, "")                              ? 4
+                   : entry.group == "Lab"                       ? 3
                    : title.starts_with(first) || key            ? 0
                    : all.find(" " + first) != std::string::npos ? 1
                                                                 : 2;

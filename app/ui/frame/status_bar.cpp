@@ -7,6 +7,7 @@
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -72,7 +73,9 @@ std::vector<std::string> facts_of(const Ui& ui) {
   if (ui.scene.view.every > 1) facts.front() += ", one particle in " + every + " × " + every + " drawn";
   if (const int torn = ui.session.simulation->tears().torn_count(); torn > 0)
     facts.push_back(std::to_string(torn) + (torn == 1 ? " spring" : " springs") + " torn or cut");
-  if (ui.session.asleep()) facts.emplace_back("at rest: asleep until touched");
+  if (const SolveCounts solves = ui.session.simulation->engine().solves(); solves.unconverged > 0)
+    facts.push_back(stopped_early(solves, ui.session.simulation->steps()));
+  if (ui.session.asleep()) facts.emplace_back("at rest: wakes when touched");
   if (const std::string without = ui.scene.effects.words(); !without.empty()) facts.push_back("without " + without);
   return facts;
 }

@@ -178,7 +178,7 @@ void readings(Ui& ui, float x, float end) {
   }
   const RealTime real = real_time(ui);
   x = reading(ui, x, end, "real time", real.text, "100 %", real.color, real_time_tip);
-  x = reading(ui, x, end, "dt", short_number(ui.session.preset().dt) + " s", "1.234e-4 s", c.text,
+  x = reading(ui, x, end, "dt", quantity(ui.session.preset().dt, "s"), "123.4 µs", c.text,
               "Time step, set in the left column");
   std::snprintf(text, sizeof text, "%d", ui.session.pacing.steps_per_frame());
   reading(ui, x, end, "steps/frame", text, "000", c.text, "Steps of dt per frame");

@@ -21,6 +21,10 @@ void toggle_effects(Ui& ui) {
   ui.settings.all_effects = all;
 }
 
+void toggle_panels(Ui& ui) {
+  ui.panels = !ui.panels, ui.panels_hidden = !ui.panels;
+}
+
 void toggle_full_screen(Ui& ui) {
   ui.toggle_full_screen = true;
 }
@@ -87,7 +91,7 @@ std::vector<CommandRow> view_rows() {
            {{GLFW_KEY_TAB, 0}},
            "hides the panels",
            "show",
-           toggle<&Ui::panels>,
+           toggle_panels,
            nullptr,
            {},
            [](const Ui& ui) { return ui.panels; }},

@@ -70,7 +70,7 @@ class CurveDrawer {
 
 std::vector<PlotTick> labeled(std::span<const double> ticks) {
   std::vector<PlotTick> out;
-  for (const double tick : ticks) out.push_back({tick, short_number(rounded(tick, 6))});
+  for (const double tick : ticks) out.push_back({tick, power_number(rounded(tick, 6))});
   return out;
 }
 

@@ -81,11 +81,11 @@ Chart map_page(const Tokens& c, const Preset& preset, const std::string& label, 
 }
 
 std::string cell_words(const Preset& preset, const MapCell& cell) {
-  std::string text = stiffness_key(preset) + " = " + short_number(cell.stiffness, 2) +
-                     " N/m, dt = " + short_number(cell.dt, 2) + " s: ";
-  if (cell.diverged) return text + "diverged after " + short_number(cell.t, 2) + " s";
-  return text + (cell.share < 0 ? "removed " : "added ") + short_number(100 * std::abs(cell.share), 2) +
-         " % of the scene's energy in " + short_number(cell.t, 2) + " s";
+  std::string text =
+      stiffness_key(preset) + " = " + quantity(cell.stiffness, "N/m", 2) + ", dt = " + quantity(cell.dt, "s", 2) + ": ";
+  if (cell.diverged) return text + "diverged after " + quantity(cell.t, "s", 2);
+  return text + (cell.share < 0 ? "removed " : "added ") + power_number(100 * std::abs(cell.share), 2) +
+         " % of the scene's energy in " + quantity(cell.t, "s", 2);
 }
 
 }  // namespace tyglab

@@ -86,6 +86,10 @@ void read_out(UiContext& ui, ImDrawList& draw, const PlotAxes& axes, std::span<c
   ImDrawList& tip = *ImGui::GetWindowDrawList();
   float names = ui.theme.px(48);
   for (const PlotCurve& curve : curves) names = std::max(names, symbol_width(ui.fonts, curve.symbol) + ui.theme.px(12));
+  double largest = 0;  // one unit for all
+  for (const PlotCurve& curve : curves)
+    if (has(curve) && std::isfinite(curve.y[n])) largest = std::max(largest, std::abs(curve.y[n]));
+  const ScaledUnit unit = scaled_unit(largest, frame.unit);
   for (const PlotCurve& curve : curves) {
     if (!has(curve) || !std::isfinite(curve.y[n])) continue;
     const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -93,7 +97,7 @@ void read_out(UiContext& ui, ImDrawList& draw, const PlotAxes& axes, std::span<c
     const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + ui.theme.px(24), middle}};
     draw_styled_line(tip, sample, 2, curve.style, ui.theme.scale);
     draw_symbol(tip, ui.fonts, {lo.x + ui.theme.px(32), baseline_at(ui.fonts, middle)}, curve.symbol, c.text);
-    const std::string value = steady_number(curve.y[n]) + " " + std::string(frame.unit);
+    const std::string value = steady_number(curve.y[n] / unit.size) + " " + unit.name;
     draw_on_baseline(tip, *ui.fonts.mono, {lo.x + ui.theme.px(32) + names, baseline_at(ui.fonts, middle)}, c.text,
                      value);
     ImGui::Dummy({ui.theme.px(36) + names + text_width(*ui.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});

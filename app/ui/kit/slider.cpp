@@ -191,7 +191,8 @@ void draw_track(UiContext& ui, const SliderScale& scale, double value, ImVec2 lo
 }
 
 /// The text field of a value. Sets `result` when the typing ends.
-void type_value(UiContext& ui, double value, float width, float height, std::string_view unit, SliderResult& result) {
+void type_value(UiContext& ui, double value, float width, float height, std::string_view name, std::string_view unit,
+                SliderResult& result) {
   SliderState& state = ui.slider;
   if (state.typing_starts) ImGui::SetKeyboardFocusHere();
   ImGui::PushFont(ui.fonts.mono);
@@ -217,9 +218,8 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   } else {
     if (state.commit) type_again(state, field);
     const bool beyond = std::isinf(std::strtod(state.text, nullptr));  // "1e999"
-    const std::string in_unit = unit.empty() ? "" : " in " + std::string(unit);
-    ui.refuse_number(std::string("“") + state.text + "” is " + (beyond ? "out of range" : "not a number" + in_unit) +
-                     "; the value stays. Type one such as " + short_number(value) + ".");
+    ui.refuse_number(std::string("“") + state.text + "” is " + (beyond ? "out of range" : "not a number") + "; " +
+                     std::string(name) + " stays at " + quantity(value, unit) + ".");
   }
 }
 
@@ -291,13 +291,13 @@ SliderResult slider(UiContext& ui, const SliderScale& scale, double value, float
 }
 
 SliderResult drag_cell(UiContext& ui, const char* id_text, const SliderScale& scale, double value, float width,
-                       float height, std::string_view unit) {
+                       float height, std::string_view name, std::string_view unit) {
   ImGui::PushID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   SliderResult result{.value = value};
   const unsigned typing_id = ImGui::GetID("value");
   if (ui.slider.typing == typing_id) {
-    type_value(ui, value, width, height, unit, result);
+    type_value(ui, value, width, height, name, unit, result);
     ImGui::PopID();
     return result;
   }
@@ -330,13 +330,13 @@ SliderResult drag_cell(UiContext& ui, const char* id_text, const SliderScale& sc
 }
 
 SliderResult value_cell(UiContext& ui, const char* id_text, double value, std::string_view shown, float width,
-                        float height, std::string_view unit) {
+                        float height, std::string_view name, std::string_view unit) {
   SliderState& state = ui.slider;
   SliderResult result{.value = value};
   const unsigned id = ImGui::GetID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   if (state.typing == id) {
-    type_value(ui, value, width, height, unit, result);
+    type_value(ui, value, width, height, name, unit, result);
     return result;
   }
   gui::press_area(id_text, {width, height});

@@ -176,10 +176,11 @@ void type_again(SliderState& state, unsigned field);
 
 /// A value that is dragged sideways (`scale` tells how far) or typed: component of a vector.
 SliderResult drag_cell(UiContext& ui, const char* id, const SliderScale& scale, double value, float width, float height,
-                       std::string_view unit = {});
+                       std::string_view name, std::string_view unit);
 
-/// A number that a double click or Ctrl+click lets one type. `shown` is its text; `unit` may be typed after it.
+/// A number that a double click or Ctrl+click lets one type. `shown` is its text; `unit` may be typed after it; `name`
+/// is what a refusal calls it.
 SliderResult value_cell(UiContext& ui, const char* id, double value, std::string_view shown, float width, float height,
-                        std::string_view unit = {});
+                        std::string_view name, std::string_view unit);
 
 }  // namespace tyglab

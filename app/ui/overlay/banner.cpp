@@ -61,7 +61,7 @@ struct Way {
 
 std::string fix_label(const Preset& now, const Preset& fixed) {
   std::string label = fixed.integrator == now.integrator ? "" : "Verlet";
-  if (fixed.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + short_number(fixed.dt) + " s");
+  if (fixed.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + quantity(fixed.dt, "s"));
   return label;
 }
 
@@ -81,7 +81,7 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
   if (advice.suggested_fix && advice.suggested_fix->integrator != now.integrator)
     retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what linear theory advises");
   if (advice.slower)
-    retry("dt = " + short_number(advice.slower->dt) + " s", *advice.slower,
+    retry("dt = " + quantity(advice.slower->dt, "s"), *advice.slower,
           "dt at 0.9 of the worst-case limit of this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
@@ -188,10 +188,10 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   const float rows = places.back().y + line;
   const bool changed = changed_since_divergence(ui.session);
   const std::string limit = changed          ? " before the constants were changed"
-                            : over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit"
+                            : over_limit > 1 ? ": dt is " + power_number(over_limit, 2) + " times the worst-case limit"
                                              : std::string();
   std::vector<std::string> texts{"The simulation diverged" + limit};
-  if (!changed && over_limit > 1) texts.push_back("Diverged: dt is " + short_number(over_limit, 2) + " × the limit");
+  if (!changed && over_limit > 1) texts.push_back("Diverged: dt is " + power_number(over_limit, 2) + " × the limit");
   const std::size_t telling = texts.size();  // those that say why
   texts.insert(texts.end(), {changed ? "Diverged before this change" : "The simulation diverged", "Diverged"});
   FoldedBanner folded;

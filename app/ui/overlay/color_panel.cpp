@@ -50,8 +50,8 @@ void top_cell(Ui& ui, FieldColors& colors, ImVec2 right_end) {
   const FieldInfo& field = info(colors.field);
   const float width = ui.theme.px(70), height = ui.theme.px(18);
   ImGui::SetCursorScreenPos({right_end.x + ui.theme.px(4) - width, std::round(right_end.y - height / 2)});
-  const SliderResult typed =
-      value_cell(ui, "colour top", colors.top(), short_number(rounded(colors.top(), 3)), width, height, field.unit);
+  const SliderResult typed = value_cell(ui, "colour top", colors.top(), short_number(rounded(colors.top(), 3)), width,
+                                        height, "the scale's end", field.unit);
   report_control(ui, "colour_top");
   tooltip(ui, gui::item_id(),
           colors.fixed ? "The scale ends at this value. Double-click the colors for an automatic scale."
@@ -98,9 +98,9 @@ float color_menu_width(const Ui& ui) {
 
 void color_menu(Ui& ui, float width) {
   const FieldColors* shown = shown_colors(ui.scene);
-  const std::string title = shown != nullptr ? std::string(info(shown->field).title) : "Own colors";
+  const std::string title = shown != nullptr ? std::string(info(shown->field).title) : "Texture";
   if (begin_combo(ui, "##colour", fitted(*ui.fonts.text, title, width - ui.theme.px(34)).c_str(), width)) {
-    choice(ui, std::nullopt, "Own colors", "The cloth's texture, lit.");
+    choice(ui, std::nullopt, "Texture", "The cloth's texture, lit.");
     for (const FieldInfo& field : particle_fields())
       choice(ui, field.field, std::string(field.title).c_str(), std::string(field.help).c_str());
     end_combo();

@@ -29,14 +29,16 @@ std::optional<Box> place_of_label(const Ui& ui, glm::vec2 foot, glm::vec2 size) 
   return ui.placing.first_free(places);
 }
 
-/// "W  4.02e-3 N", and in gusts what blows now.
+/// "W  4.02 mN", and in gusts what blows now.
 void wind_label(Ui& ui, ImDrawList& draw, glm::vec2 foot, const glm::dvec3& W) {
   const Tokens& c = ui.theme.colors;
   const ImFont &mono = *ui.fonts.mono, &small = *ui.fonts.small;
   const float pad = ui.theme.px(8), gap = ui.theme.px(8), line = ui.theme.px(20);
-  const std::string strength = short_number(glm::length(W)) + " N";
+  const ScaledUnit unit = scaled_unit(glm::length(W), "N");
+  const std::string strength = short_number(glm::length(W) / unit.size, 3) + " " + unit.name;
   const bool gusty = gusts(ui.session.preset());
-  const std::string now = "now " + steady_number(glm::length(ui.session.simulation->wind())) + " N";
+  const std::string now =
+      "now " + steady_number(glm::length(ui.session.simulation->wind()) / unit.size) + " " + unit.name;
   const float symbol = symbol_width(ui.fonts, "W");
   const float width = std::max(symbol + gap + text_width(mono, strength), gusty ? text_width(small, now) : 0.f);
   const glm::vec2 size = glm::ceil(glm::vec2(width + 2 * pad, line * (gusty ? 2.f : 1.f) + pad / 2));

@@ -43,6 +43,10 @@ void pointer_overlay(Ui& ui, ImDrawList& draw);
 void scene_name(Ui& ui, ImDrawList& draw, const Box& row);
 /// Of PAUSED without its keys, px.
 glm::vec2 pause_mark_size(const Ui& ui);
+/// How the panels that Tab has hidden come back, and which lab goes on meanwhile.
+void hidden_panels_mark(Ui& ui, ImDrawList& draw);
+/// How far the film is that is being exported; a click ends it.
+void film_mark(Ui& ui, ImDrawList& draw);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
 /// At the foot of each picture, or overlaid one above the other: which cloth it is, and whether it has diverged; a

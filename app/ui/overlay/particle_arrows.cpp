@@ -100,7 +100,8 @@ float scale_bar(Ui& ui, ImDrawList& draw, ImVec2 at, double scale, std::string_v
   const double value = round_below(scale);
   const float length = std::round(float(value / scale) * ui.theme.px(longest_px)), tick = ui.theme.px(3),
               pad = ui.theme.px(6);
-  const std::string text = short_number(value) + " " + std::string(unit);
+  const ScaledUnit in = scaled_unit(value, unit);
+  const std::string text = power_number(value / in.size) + " " + in.name;
   const float end = at.x + length + pad + text_width(font, text);
   const Box box{{at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2}};
   if (!ui.placing.free(box) || (ui.tooltip_before && overlap(box, *ui.tooltip_before))) return at.x;

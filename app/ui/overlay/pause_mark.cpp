@@ -1,9 +1,11 @@
-// PAUSED, with the keys that continue; or REPLAY, with the replayed steps and their speed.
+// PAUSED, with the keys that continue; or REPLAY, with the replayed steps and their speed; and what is hidden.
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 
 #include "app/base/text.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 
@@ -79,6 +81,48 @@ void pause_mark(Ui& ui, ImDrawList& draw, const Box& row) {
   draw_on_baseline(draw, bold, {box.lo.x + pad, baseline}, c.text, word);
   if (box.hi.x - box.lo.x > brief.x)
     draw_on_baseline(draw, text, {box.lo.x + word_width + 2 * pad, baseline}, c.quiet, how);
+}
+
+namespace {
+
+/// A button in a corner of the picture. Returns whether it was pressed.
+bool corner_button(Ui& ui, ImDrawList& draw, const char* id, std::string_view words) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.small;
+  const float pad = ui.theme.px(10), margin = ui.theme.px(16);
+  const glm::vec2 size = glm::ceil(glm::vec2(text_width(font, words) + 2 * pad, font.FontSize + pad));
+  const Box area{ui.viewport.box.lo + margin, ui.viewport.box.hi - margin};
+  std::optional<Box> box;
+  for (const ScreenCorner corner : {ScreenCorner::lower_left, ScreenCorner::lower_right, ScreenCorner::upper_right})
+    if (!box) box = ui.placing.in_corner(area, size, corner);
+  if (!box) return false;
+  ui.placing.take(id, *box);
+  cover_viewport(ui, vec(box->lo), vec(box->hi));
+  ImGui::SetCursorScreenPos(vec(box->lo));
+  const bool pressed = gui::press_area(id, vec(size));
+  report_control(ui, id);
+  const bool hovered = ImGui::IsItemHovered();
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), hovered ? c.field_hover : faded(c.panel, 0.85f), ui.theme.px(6));
+  draw_on_baseline(draw, font, {box->lo.x + pad, baseline_at(ui.fonts, (box->lo.y + box->hi.y) / 2)},
+                   hovered ? c.text : c.quiet, words);
+  return pressed;
+}
+
+}  // namespace
+
+void hidden_panels_mark(Ui& ui, ImDrawList& draw) {
+  if (ui.panels || !ui.panels_hidden) return;
+  const std::string how = ui.input.by_touch ? "Show the panels" : "Tab shows the panels";
+  const auto& lab = ui.session.labs.run;
+  std::string words = (lab ? "Lab: " + lab->lab.title + " · " : "") + how;
+  if (text_width(*ui.fonts.small, words) + ui.theme.px(52) > ui.viewport.whole().x) words = how;
+  if (corner_button(ui, draw, "show_panels", words)) ui.command("toggle_panels");
+}
+
+void film_mark(Ui& ui, ImDrawList& draw) {
+  if (!ui.film) return;
+  const std::string done = std::to_string(ui.film->frame) + " of " + std::to_string(ui.film->count);
+  if (corner_button(ui, draw, "stop_film", "Film: image " + done + " · Stop")) ui.command("export_film");
 }
 
 }  // namespace tyglab

@@ -137,6 +137,8 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   if (!bare) {
     arrow_scales(ui, draw);
     pause_mark(ui, draw, row);
+    hidden_panels_mark(ui, draw);
+    film_mark(ui, draw);
   }
   color_legend(ui);
   if (!bare) {

@@ -79,7 +79,7 @@ struct Gallery {
 
 /// A question or a file dialog over everything else.
 struct Dialog {
-  enum class Kind { none, start, open, save, write_export, texture, picture, unsaved, large_cloth };
+  enum class Kind { none, start, open, save, write_export, texture, picture, film, course_page, unsaved, large_cloth };
   Kind kind = Kind::none;
   bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
@@ -92,6 +92,7 @@ struct Dialog {
   bool overwrite = false;                 ///< the file exists, and the user is asked
   bool first_start = false;               ///< of start: there is nothing yet to continue with
   bool whole_window = false;              ///< of picture
+  char seconds[16] = "10";                ///< of film, as it is typed
   const CommandRow* exporting = nullptr;  ///< of write_export
   std::optional<Request> then;            ///< of a question: what follows a yes
   std::string question;
@@ -130,6 +131,15 @@ struct CommandPalette {
   bool enter = false;   ///< Enter was pressed
 };
 
+/// The list of methods, while it is open.
+struct MethodList {
+  bool open = false;
+  std::vector<std::string> limits;  ///< of dt, as it says them
+  int selected = 0;
+  int go = 0;          ///< methods to go down, by the keys of this frame
+  bool enter = false;  ///< Enter was pressed
+};
+
 /// The cards that show a newcomer round.
 struct Tour {
   int card = -1;                     ///< none while below 0
@@ -152,6 +162,14 @@ struct AskedLattice {
 struct PictureOrder {
   std::filesystem::path file;
   bool whole_window = false;
+};
+
+/// A film of the viewport: a numbered PNG for each 25th of a second that the window would show.
+struct FilmOrder {
+  static constexpr int fps = 25;
+  std::filesystem::path folder;
+  std::int64_t count = 0, frame = 0;  ///< images, and those that have been ordered
+  double next_t = 0;                  ///< s, simulated, of the next one
 };
 
 /// What a lab has opened of the plots' column: closed again when it ends. What was open before is not among it.
@@ -198,6 +216,7 @@ struct Ui : UiContext {
   /// Pressed after a key of which it depends what they do: after the palette's Enter, or what opens a field.
   std::vector<KeyEvent> later_keys;
   CommandPalette palette;
+  MethodList methods;
   std::vector<PaletteEntry> menu;  ///< what the menu holds beside commands, since it was opened
   Tour tour;
   Plots plots;
@@ -208,6 +227,7 @@ struct Ui : UiContext {
   bool help = false;
   float help_needs = 0;              ///< height of what F1 shows, px; 0: not known yet
   bool panels = true;                ///< Tab hides them all
+  bool panels_hidden = false;        ///< by the user, who is told how to get them back
   bool presenting = false;           ///< a large cloth over a few large controls, and one card, in place of the panels
   bool presented_card = true;        ///< whether that card is there
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
@@ -229,6 +249,7 @@ struct Ui : UiContext {
   Side side = Side::main;
 
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
+  std::optional<FilmOrder> film;        ///< that is being exported
   bool full_screen = false;             ///< as the window is
   bool toggle_full_screen = false;
   bool scale_changed = true;  ///< fonts are to be built again
