@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <CLI/CLI.hpp>
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TYGLAB_ADDRESS_SANITIZED
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -235,7 +235,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace tyglab::monkey
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TYGLAB_ADDRESS_SANITIZED
 /// LLVM, which OpenCL drivers bring along, gives its threads signal stacks that AddressSanitizer takes for its own.
 extern "C" const char* __asan_default_options() {  // NOLINT(bugprone-reserved-identifier): its name
   return "use_sigaltstack=0:allocator_may_return_null=1:quarantine_size_mb=64";
@@ -256,7 +256,7 @@ int main(int argc, char** argv) {
   tyglab::probe_drivers_in_child();
   try {
     const int code = tyglab::monkey::run(argc, argv);
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TYGLAB_ADDRESS_SANITIZED
     __lsan_do_leak_check();  // as in support/main.cpp
 #endif
     return code;

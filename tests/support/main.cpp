@@ -1,7 +1,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef TYGLAB_ADDRESS_SANITIZED
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -10,7 +10,7 @@
 int main(int argc, char** argv) {
   tyglab::test::probe_drivers_in_child();
   const int code = doctest::Context(argc, argv).run();
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef TYGLAB_ADDRESS_SANITIZED
   // Not at the end of the process, when LeakSanitizer has crashed among threads of OpenCL drivers that were ending too.
   __lsan_do_leak_check();
 #endif
