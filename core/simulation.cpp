@@ -13,6 +13,7 @@
 #include "core/io/terminal.h"
 #include "core/model/effect.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {

@@ -65,13 +65,6 @@ std::string encoded(std::string_view text) {
   return link;
 }
 
-/// As an attribute of HTML has it.
-std::string escaped(const std::string& link) {
-  std::string text;
-  for (const char letter : link) text += letter == '&' ? "&amp;" : std::string(1, letter);
-  return text;
-}
-
 bool is_shipped_preset(const std::string& name) {
   const std::vector<std::string> names = shipped_presets();
   return std::binary_search(names.begin(), names.end(), name);
@@ -191,11 +184,6 @@ std::string link_to(const Preset& preset, const std::string& label) {
   std::string link = "#" + encoded(name);
   for (const std::string& setting : settings_between(from, to)) link += "&" + encoded(setting);
   return link;
-}
-
-std::string embed_code(const std::string& address, const std::string& link, const std::string& lab) {
-  const std::string what = lab.empty() ? "?embed" + escaped(link) : "?embed&amp;lab=" + encoded(lab);
-  return "<iframe width=\"900\" height=\"640\" src=\"" + address + what + "\"></iframe>";
 }
 
 }  // namespace tyglab

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/model/notation.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

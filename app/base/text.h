@@ -40,8 +40,6 @@ Preset linked_preset(const LinkedPreset& link);
 /// The link to these constants. `label`: of the shipped preset that they were made from, or anything else. Its texture
 /// is named only where it is shipped; numbers are without the noise of their last bits.
 std::string link_to(const Preset& preset, const std::string& label);
-/// HTML that shows a link of the page at `address` in a frame; `lab`: the lab's, empty: none.
-std::string embed_code(const std::string& address, const std::string& link, const std::string& lab);
 
 // Formats and reads numbers in panels; short_number of notation.h formats constants.
 

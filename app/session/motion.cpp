@@ -4,6 +4,7 @@
 #include "app/session/session.h"
 #include "core/integrators/scheme.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

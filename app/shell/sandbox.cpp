@@ -25,6 +25,7 @@
 #include "core/io/preset_io.h"
 #include "core/io/system_files.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 #include "tests/bench/session_report.h"
 
 namespace tyglab {

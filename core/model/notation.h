@@ -3,7 +3,6 @@
 #pragma once
 
 #include <charconv>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -89,22 +88,6 @@ std::string notation_markdown();
 /// Up to that many significant digits, "310", "0.002", "1.2e-4": without an exponent from 0.001 to 100,000, where every
 /// digit before the point is written.
 std::string short_number(double value, int digits = 4);
-/// The same for people: "1.2·10⁻⁴", "18,000".
-std::string power_number(double value, int digits = 4);
-/// "1.2e-4" as "1.2·10⁻⁴".
-std::string with_power(std::string text);
-/// "1,234,567".
-std::string grouped(std::int64_t count);
-/// A unit in which values of that size need no exponent: "mN" below 0.1 N, "µN" below 0.1 mN. Only seconds, meters,
-/// newtons, joules and what begins with them are divided; kg become g and mg.
-struct ScaledUnit {
-  double size;  ///< in the unit itself: 1e-3
-  std::string name;
-};
-ScaledUnit scaled_unit(double largest, std::string_view unit);
-/// A value in a sentence: "0.002 s", "26 µs", "4.04 mN/m", "3·10⁷ N/m", "12". The unit is divided where the number
-/// would need an exponent.
-std::string quantity(double value, std::string_view unit, int digits = 4);
 /// "1.20e-04", as printf writes it, as "1.20e-4".
 std::string short_exponent(std::string text);
 /// Rounded to that many significant digits.

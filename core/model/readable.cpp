@@ -1,4 +1,5 @@
 #include "core/model/notation.h"
+#include "core/model/words.h"
 
 #include <algorithm>
 #include <array>

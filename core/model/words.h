@@ -1,7 +1,8 @@
-// The spelling of words and numbers in preset files.
+// The spelling of words and numbers in preset files, and of numbers with units for people.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -41,5 +42,22 @@ inline constexpr std::array<std::string_view, 6> section_names{"cloth",  "forces
 
 /// Shortest text that reads back as the same number; without an exponent where a person would write none.
 std::string shortest_number(double v);
+
+/// short_number (notation.h) for people: "1.2·10⁻⁴", "18,000".
+std::string power_number(double value, int digits = 4);
+/// "1.2e-4" as "1.2·10⁻⁴".
+std::string with_power(std::string text);
+/// "1,234,567".
+std::string grouped(std::int64_t count);
+/// A unit in which values of that size need no exponent: "mN" below 0.1 N, "µN" below 0.1 mN. Only seconds, meters,
+/// newtons, joules and what begins with them are divided; kg become g and mg.
+struct ScaledUnit {
+  double size;  ///< in the unit itself: 1e-3
+  std::string name;
+};
+ScaledUnit scaled_unit(double largest, std::string_view unit);
+/// A value in a sentence: "0.002 s", "26 µs", "4.04 mN/m", "3·10⁷ N/m", "12". The unit is divided where the number
+/// would need an exponent.
+std::string quantity(double value, std::string_view unit, int digits = 4);
 
 }  // namespace tyglab

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/model/notation.h"
+#include "core/model/words.h"
 #include "core/theory/modes.h"
 #include "core/theory/zones.h"
 

@@ -13,6 +13,7 @@
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

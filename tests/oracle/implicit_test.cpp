@@ -251,7 +251,7 @@ TEST_CASE("what is claimed of a step holds of the state that is kept, and says w
         if (single && k_s >= 1e7) CHECK(solves.unconverged > 0);
         if (single && k_s >= 1e7 && preset.integrator == "implicit_euler") {
           CHECK(solves.rounded == 5);
-          CHECK(solves_missed(solves, preset).find("--precision double") != std::string::npos);
+          CHECK(solves_missed(solves, simulation.steps(), preset).find("--precision double") != std::string::npos);
         }
       }
 }

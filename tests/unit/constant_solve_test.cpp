@@ -208,7 +208,7 @@ TEST_CASE("an unfinished solve slows no motion that is common to a piece of the 
     CHECK(std::abs(start - lowest(halves) - fallen) < close);
     CHECK(halves.engine().solves().unconverged == steps);
     CHECK(halves.engine().solves().worst_residual > 1e-3);
-    CHECK(solves_missed(halves.engine().solves(), p).find("smaller k_d") != std::string::npos);
+    CHECK(solves_missed(halves.engine().solves(), halves.steps(), p).find("smaller k_d") != std::string::npos);
   }
 }
 

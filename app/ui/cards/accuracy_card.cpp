@@ -11,6 +11,7 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/model/effect.h"
+#include "core/model/words.h"
 #include "core/theory/modes.h"
 
 namespace tyglab {

@@ -9,6 +9,7 @@
 #include "app/ui/kit/widgets.h"
 #include "core/analysis/tolerance.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

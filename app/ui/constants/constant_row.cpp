@@ -7,6 +7,7 @@
 #include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/forces/contact.h"
 #include "core/integrators/scheme.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {

@@ -13,6 +13,7 @@
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

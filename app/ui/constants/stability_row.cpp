@@ -8,6 +8,7 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "app/base/text.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

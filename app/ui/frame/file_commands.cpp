@@ -68,6 +68,13 @@ std::string no_address(const Ui& ui) {
   return link_address(ui).empty() ? "Set the address of your Tyglab page first: “Course page…”, in Ctrl+P." : "";
 }
 
+/// HTML that shows a link of the page at `address` in a frame; `lab`: the lab's, empty: none.
+std::string embed_code(const std::string& address, const std::string& link, const std::string& lab) {
+  std::string what = lab.empty() ? "?embed" + link : "?embed&lab=" + lab;
+  for (std::size_t at = 0; (at = what.find('&', at)) != std::string::npos; ++at) what.insert(at + 1, "amp;");
+  return "<iframe width=\"900\" height=\"640\" src=\"" + address + what + "\"></iframe>";
+}
+
 void copy_embed_code(Ui& ui) {
   const std::string link = link_to(ui.session.requested_preset(), ui.session.document.label);
   const auto& lab = ui.session.labs.run;

@@ -9,6 +9,7 @@
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

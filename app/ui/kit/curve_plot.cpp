@@ -4,6 +4,7 @@
 
 #include "app/base/text.h"
 #include "app/ui/kit/widgets.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

@@ -7,6 +7,7 @@
 #include "app/base/text.h"
 #include "app/render/field_colors.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 #include "core/theory/zones.h"
 
 namespace tyglab {

@@ -11,6 +11,7 @@
 
 #include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

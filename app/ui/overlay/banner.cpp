@@ -12,6 +12,7 @@
 #include "app/ui/overlay/overlay.h"
 #include "app/ui/state/ui.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {

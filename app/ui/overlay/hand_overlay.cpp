@@ -9,6 +9,7 @@
 #include "app/tools/tools.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

@@ -14,6 +14,7 @@
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/base/text.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 
