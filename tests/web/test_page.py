@@ -54,15 +54,15 @@ def downloaded(folder, program="tyglab"):
     return sum(len(gzip.compress((folder / name).read_bytes(), 9)) for name in names)
 
 
-def report(page):
+def report(page, window="window"):
     """The session report (docs/session-report.md) of the next frames."""
-    return json.loads(page.ask("tyglab.FS.readFile('/report.json', {encoding: 'utf8'})"))
+    return json.loads(page.ask(f"{window}.tyglab.FS.readFile('/report.json', {{encoding: 'utf8'}})"))
 
 
-def wait_for(page, what, good, seconds=120):
+def wait_for(page, what, good, seconds=120, window="window"):
     end = time.monotonic() + seconds
     while True:
-        now = report(page)
+        now = report(page, window)
         if good(now):
             return now
         if time.monotonic() > end:
@@ -151,8 +151,8 @@ def frames_beside_studies(page):
 
 
 class Tests:
-    def __init__(self, browser, home, folder, shots):
-        self.browser, self.home, self.folder, self.shots = browser, home, folder, shots
+    def __init__(self, browser, home, folder, shots, course):
+        self.browser, self.home, self.folder, self.shots, self.course = browser, home, folder, shots, course
         self.pages = []
 
     def open(self, rest="", **size):
@@ -429,6 +429,62 @@ class Tests:
         wait_for(page, "two fingers zoom", lambda now: now["camera"]["distance"] < 0.9 * before["distance"])
         page.call("Page.close")
 
+    def test_in_a_course_page(self):
+        """A frame leaves the course's page its focus, its wheel and its finger until it is used, and rests out of sight."""
+        frame, flag = "frames[0]", "<iframe src='tyglab/?embed&preset=flag&panels=0&report' width='600' height='400'></iframe>"
+        (self.course / "page.html").write_text(f"<!doctype html><meta name='viewport' content='width=device-width'><body>"
+                                               f"<p>Course</p>{flag}<div style='height: 4000px'></div>")
+
+        def opened(**size):
+            page = self.browser.page(self.home.rsplit("/", 1)[0] + "/page.html", **size)
+            page.wait(f"{frame}?.performance.getEntriesByName('tyglab first frame').length > 0", 120)
+            time.sleep(1)
+            return page
+
+        def distance():
+            time.sleep(1)
+            return report(page, frame)["camera"]["distance"]
+
+        def wheel():
+            page.call("Input.dispatchMouseEvent", type="mouseWheel", x=300, y=250, deltaX=0, deltaY=100)
+            return distance()
+
+        page = opened()
+        assert page.ask("document.activeElement === document.body")
+        before = distance()
+        assert wheel() == before and page.ask("scrollY") > 0
+        page.ask("scrollTo(0, 0)")
+        page.click(300, 100)
+        assert wheel() != before and page.ask("scrollY") == 0
+        page.ask("scrollTo(0, 2000)")
+        time.sleep(1)
+        rests = report(page, frame)["frames"]
+        time.sleep(1)
+        assert report(page, frame)["frames"] == rests
+        page.ask("scrollTo(0, 0)")
+        wait_for(page, "it goes on", lambda now: now["frames"] > rests + 5, window=frame)
+        page.call("Page.close")
+
+        page = opened(width=800, height=700, touch=True)
+
+        def drag():
+            page.touch("touchStart", (300, 350))
+            for step in range(1, 11):
+                page.touch("touchMove", (300, 350 - 20 * step))
+                time.sleep(0.03)
+            page.touch("touchEnd")
+            time.sleep(0.5)
+            return page.ask("scrollY")
+
+        assert drag() > 50
+        page.ask("scrollTo(0, 0)")
+        time.sleep(0.3)
+        page.touch("touchStart", (300, 100))
+        page.touch("touchEnd")
+        page.wait(f"{frame}.tyglab.tyglabPage.used")
+        assert drag() == 0
+        page.call("Page.close")
+
     def test_embedded(self):
         page = self.open("?embed&preset=flag&panels=0&report")
         assert report(page)["label"] == "flag"
@@ -524,7 +580,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(args.page, pathlib.Path(folder) / "course" / "tyglab")
         with served(folder, args.threads) as address, Browser() as browser:
-            tests = Tests(browser, f"{address}/course/tyglab", args.page, args.shots)
+            tests = Tests(browser, f"{address}/course/tyglab", args.page, args.shots, pathlib.Path(folder) / "course")
             for name in names:
                 start = time.monotonic()
                 try:

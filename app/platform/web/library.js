@@ -81,6 +81,57 @@ addToLibrary({
       _tyglab_run_copy(parts);
     },
     field: null,
+    typed: [],
+    // In a frame of another page the wheel and one finger scroll that page, until a click or a tap takes the frame into
+    // use; a click elsewhere gives it back. A frame out of sight rests.
+    framed: false,
+    used: true,
+    seen: true,
+    lost: false,  // what draws was taken away
+    use: (used) => {
+      tyglabPage.used = used || !tyglabPage.framed;
+      Module.canvas.style.touchAction = tyglabPage.used ? 'none' : 'manipulation';
+    },
+    listenToFrame: (canvas) => {
+      tyglabPage.framed = window.parent !== window;
+      tyglabPage.use(false);
+      if (!tyglabPage.framed) return;
+      new IntersectionObserver((entries) => {
+        const seen = entries[entries.length - 1].isIntersecting;
+        if (seen === tyglabPage.seen || tyglabPage.lost) return;
+        tyglabPage.seen = seen;
+        _tyglab_on_sight(Number(seen));
+      }).observe(canvas);
+    },
+    tapped: null,  // a finger in a frame not in use: where it went down
+    waitForTap: (event) => {
+      const {pointerId, clientX, clientY} = event, before = tyglabPage.tapped;
+      if (event.type === 'pointerdown') return void (tyglabPage.tapped = before ? null : {pointerId, clientX, clientY});
+      if (event.type === 'pointermove' || before?.pointerId !== pointerId) return;
+      tyglabPage.tapped = null;
+      if (event.type !== 'pointerup' || Math.hypot(clientX - before.clientX, clientY - before.clientY) > 10) return;
+      Module.canvas.focus({preventScroll: true});
+      tyglabPage.use(true);
+      for (const phase of [0, 2]) _tyglab_on_finger(pointerId, phase, ...tyglabPage.at(event));
+    },
+    // A keyboard on the screen composes words and takes them back, so what changed in the field is what was typed. The
+    // field begins with spaces that can be deleted.
+    startField: () => {
+      const field = tyglabPage.field;
+      if (field === null) return;
+      field.value = '\u00a0'.repeat(32);
+      tyglabPage.typed = [...field.value];
+      field.focus({preventScroll: true});
+    },
+    followField: (event) => {
+      const before = tyglabPage.typed, now = [...tyglabPage.field.value];
+      let same = 0;
+      while (same < Math.min(before.length, now.length) && before[same] === now[same]) ++same;
+      for (let n = same; n < before.length; ++n) for (const down of [1, 0]) _tyglab_on_key(tyglabPage.codes.Backspace, down, 0);
+      for (const letter of now.slice(same)) _tyglab_on_character(letter.codePointAt(0));
+      tyglabPage.typed = now;
+      if (now.length < 8 && !event.isComposing) tyglabPage.startField();
+    },
     mods: (event) => (event.shiftKey ? 1 : 0) | (event.ctrlKey || event.metaKey ? 2 : 0) | (event.altKey ? 4 : 0),
     key: (event) => {
       const letter = event.key.length === 1 ? event.key.toUpperCase() : '';
@@ -90,6 +141,7 @@ addToLibrary({
       return tyglabPage.codes[event.code] ?? -1;
     },
     pressed: (event) => {
+      if (event.isComposing || event.keyCode === 229) return;  // its text comes when it is composed
       const ctrl = event.ctrlKey || event.metaKey, key = tyglabPage.key(event);
       if (key < 0 || (ctrl && tyglabPage.kept[Number(event.shiftKey)].includes(event.key.toLowerCase()))) return;
       if (ctrl && !event.altKey && event.key.toLowerCase() === 'v') return;  // its text comes with the event 'paste'
@@ -161,6 +213,11 @@ addToLibrary({
     },
     finger: (phase) => (event) => {
       if (event.pointerType !== 'touch') return;
+      if (!tyglabPage.used) return tyglabPage.waitForTap(event);
+      if (phase === 0) {
+        Module.canvas.setPointerCapture(event.pointerId);
+        tyglabPage.startField();
+      }
       _tyglab_on_finger(event.pointerId, phase, ...tyglabPage.at(event));
       event.preventDefault();
     },
@@ -168,11 +225,10 @@ addToLibrary({
       const mouse = (handle) => (event) => {
         if (event.pointerType !== 'touch') handle(event);
       };
-      canvas.addEventListener('pointerdown', (event) => {
+      canvas.addEventListener('pointerdown', mouse((event) => {
         canvas.focus({preventScroll: true});
         canvas.setPointerCapture(event.pointerId);
-      });
-      canvas.addEventListener('pointerdown', mouse((event) => {
+        tyglabPage.use(true);
         _tyglab_on_pointer(...tyglabPage.at(event));
       }));
       // Further buttons of a mouse come as mouse events alone.
@@ -191,9 +247,12 @@ addToLibrary({
       canvas.addEventListener('pointerup', tyglabPage.finger(2));
       canvas.addEventListener('pointercancel', tyglabPage.finger(2));
       for (const kind of ['touchstart', 'touchmove', 'touchend'])  // no mouse is made of them, and no page moves
-        canvas.addEventListener(kind, (event) => event.preventDefault(), {passive: false});
+        canvas.addEventListener(kind, (event) => {
+          if (tyglabPage.used) event.preventDefault();
+        }, {passive: false});
       canvas.addEventListener('contextmenu', (event) => event.preventDefault());
       canvas.addEventListener('wheel', (event) => {
+        if (!tyglabPage.used && !event.ctrlKey) return;
         const line = event.deltaMode === 0 ? 1 / 100 : event.deltaMode === 1 ? 1 / 3 : 1;
         _tyglab_on_wheel(-event.deltaX * line, -event.deltaY * line * (event.ctrlKey ? 5 : 1));
         event.preventDefault();
@@ -201,7 +260,7 @@ addToLibrary({
     },
     listenToKeys: (canvas) => {
       canvas.tabIndex = 0;
-      canvas.focus({preventScroll: true});
+      if (!tyglabPage.framed) canvas.focus({preventScroll: true});
       window.addEventListener('keydown', (event) => {
         if (event.target === tyglabPage.field && event.key.length === 1 && !event.ctrlKey) return;
         tyglabPage.pressed(event);
@@ -211,8 +270,14 @@ addToLibrary({
         if (key >= 0) _tyglab_on_key(key, 0, tyglabPage.mods(event));
       });
       window.addEventListener('paste', tyglabPage.pasted);
-      window.addEventListener('blur', () => _tyglab_on_focus(0));
-      window.addEventListener('focus', () => _tyglab_on_focus(1));
+      window.addEventListener('blur', () => {
+        tyglabPage.use(false);
+        _tyglab_on_focus(0);
+      });
+      window.addEventListener('focus', () => {
+        tyglabPage.use(true);
+        _tyglab_on_focus(1);
+      });
     },
   },
 
@@ -240,9 +305,14 @@ addToLibrary({
     new ResizeObserver(tyglabPage.resized).observe(canvas);
     window.addEventListener('resize', tyglabPage.resized);  // zoom
     matchMedia('(pointer: coarse)').addEventListener('change', tyglabPage.resized);  // a mouse is plugged in
+    tyglabPage.listenToFrame(canvas);
     tyglabPage.listenToPointer(canvas);
     tyglabPage.listenToKeys(canvas);
-    canvas.addEventListener('webglcontextlost', () => Module.lost?.());
+    canvas.addEventListener('webglcontextlost', () => {
+      tyglabPage.lost = true;
+      _tyglab_on_sight(0);
+      Module.lost?.();
+    });
     window.addEventListener('dragover', (event) => event.preventDefault());
     window.addEventListener('drop', (event) => {
       event.preventDefault();
@@ -295,12 +365,11 @@ addToLibrary({
     field.setAttribute('aria-label', 'Text for the field in the picture');
     field.style = 'position:fixed;left:0;bottom:0;width:1px;height:1px;opacity:0;border:0;font-size:16px';
     field.autocomplete = field.autocapitalize = 'off';
-    field.addEventListener('input', (event) => {
-      for (const letter of event.data ?? '') _tyglab_on_character(letter.codePointAt(0));
-      field.value = '';
-    });
+    field.spellcheck = false;
+    field.enterKeyHint = 'done';
+    field.addEventListener('input', tyglabPage.followField);
     document.body.append(field);
-    field.focus({preventScroll: true});
+    tyglabPage.startField();
   },
 
   tyglab_hand_out: (file) => {

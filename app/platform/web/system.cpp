@@ -69,6 +69,11 @@ void lower_own_priority() {}
 
 }  // namespace tyglab
 
+/// Called by app/platform/web/library.js: the canvas comes into sight or leaves it. Unseen frames are not made.
+extern "C" EMSCRIPTEN_KEEPALIVE void tyglab_on_sight(int seen) {
+  seen != 0 ? emscripten_resume_main_loop() : emscripten_pause_main_loop();
+}
+
 // Of app/platform/web/library.js.
 extern "C" {
 void tyglab_hand_out(const char* file);
