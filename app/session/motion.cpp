@@ -129,8 +129,10 @@ void toggle_auto_dt(Session& session) {
 }
 
 void watch_dt(Session& session) {
+  const auto ledger = session.simulation->ledger();
+  if (!ledger) return;  // it is kept from the next update on, or once its program is there
   const bool in_vain = session.auto_dt->in_vain();
-  const auto dt = session.auto_dt->look(session.preset(), session.simulation->time(), *session.simulation->ledger());
+  const auto dt = session.auto_dt->look(session.preset(), session.simulation->time(), *ledger);
   if (session.auto_dt->in_vain() && !in_vain)
     session.messages.warning("A smaller dt has not kept " + std::string(scheme(session.preset().integrator).title) +
                              " from adding energy, so dt stays. Use another method.");
