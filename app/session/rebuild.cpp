@@ -118,7 +118,8 @@ void BackgroundRebuild::poll(Session& session) {
 }
 
 void BackgroundRebuild::give_up(Session& session, const JobError& why) {
-  const bool stays = making_->target.engine != EngineKind::cpu && session.preset().engine == EngineKind::cpu;
+  // Nothing is being made any more where it was made and could not be taken.
+  const bool stays = making_ && making_->target.engine != EngineKind::cpu && session.preset().engine == EngineKind::cpu;
   making_.reset(), next_.reset();
   session.history = std::move(before_);
   session.messages.error(
