@@ -1,5 +1,7 @@
 #include "app/session/motion.h"
 
+#include <cassert>
+
 #include "app/base/text.h"
 #include "app/session/session.h"
 
@@ -32,6 +34,7 @@ void restart(Session& session) {
 }
 
 void go_back(Session& session, const Snapshot& then) {
+  assert(!session.background_steps.busy());
   session.rewind.go_back(*session.simulation, then);
   session.history.go_back(session.simulation->time());
   go_on_from_here(session);
@@ -103,6 +106,7 @@ void reset_everything(Session& session) {
 }
 
 void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int steps) {
+  assert(steps >= 0);
   if (hand && steps > 0) apply_edit(session, edit::MoveHand{*hand, steps});
 }
 
@@ -129,6 +133,7 @@ void toggle_auto_dt(Session& session) {
 }
 
 void watch_dt(Session& session) {
+  assert(session.auto_dt);
   const auto ledger = session.simulation->ledger();
   if (!ledger) return;  // it is kept from the next update on, or once its program is there
   const bool in_vain = session.auto_dt->in_vain();

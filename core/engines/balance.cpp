@@ -1,6 +1,7 @@
 #include "core/engines/balance.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,10 @@ struct Measure {
 template <class R>
 Balance balance_of(const StageView<R>& stage) {
   const Preset& p = stage.preset;
+  assert(stage.h > 0 && p.m > 0);
+  assert(stage.stride >= stage.lattice.columns);
+  assert(stage.fixed.empty() || stage.fixed.size() >= std::size_t(stage.lattice.size()));
+  assert(stage.tears.untorn() || stage.tears.lattice() == stage.lattice);
   const Measure<R> measure{stage, stage.h * stage.h / p.m};
   double squared = 0, size = 0;
   for (int i = 0; i < stage.lattice.rows; ++i)

@@ -1,6 +1,7 @@
 // Measures how well the forces of an implicit stage balance, which defines whether a step has converged.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,6 +20,7 @@ constexpr double balance_tolerance = sizeof(R) == 8 ? 1e-6 : 1e-4;
 /// `size`, m, make of forces. `stiffness`: k h²/m of its stiffest springs. As everywhere here, forces are multiplied by
 /// h²/m.
 inline double last_digits(double epsilon, double size, double stiffness) {
+  assert(epsilon > 0 && !(size < 0) && !(stiffness < 0));
   return 4 * epsilon * size * (1 + stiffness);
 }
 

@@ -33,6 +33,7 @@ void wait_for_change(const std::atomic<int>& value, int old) {
 }  // namespace
 
 void Progress::finished(int rows) {
+  assert(rows >= rows_.load(std::memory_order_relaxed));  // rows are never unfinished again
   rows_.store(rows, std::memory_order_release);
   wake_one(rows_);
 }
@@ -62,6 +63,7 @@ Team::~Team() {
 }
 
 void Team::start(int number) {
+  assert(number >= 1 && std::size_t(number) <= starts_.size());
   std::atomic<int>& runs = starts_[std::size_t(number) - 1].runs;
   ++runs;
   wake_one(runs);
@@ -78,6 +80,7 @@ void Team::serve(int number) {
 }
 
 void Team::work(int number) noexcept {
+  assert(number >= 0 && number < size_ && call_.function != nullptr);
   try {
     call_.function(call_.work, number);
   } catch (const Failed&) {
@@ -90,12 +93,14 @@ void Team::work(int number) noexcept {
 }
 
 void Team::run(const Call& call) {
+  assert(size_ > 1 && working_ == 0 && waiting_ == 0 && !failed_);
   call_ = call;
   working_ = size_ - 1;
   const int turn = finished_.load();
   for (int n = 1; n < size_; ++n) start(n);
   work(0);
   wait_for_change(finished_, turn);
+  assert(working_ == 0);
   if (!failed_) return;
   failed_ = false, waiting_ = 0;
   std::rethrow_exception(std::exchange(fault_, nullptr));
@@ -106,6 +111,7 @@ void Team::barrier() {
   const int turn = passed_.load();
   // Only now: who fails later lets those pass who wait for this turn.
   if (failed_) throw Failed();
+  assert(waiting_ < size_);
   if (waiting_.fetch_add(1) + 1 == size_) {
     waiting_ = 0;
     passed_ = turn + 1;
