@@ -117,6 +117,7 @@ Sandbox::Sandbox(const SandboxOptions& options)
   session_.costs.started(StartPart::cloth);
   input_.finger_button = [this](glm::vec2 at) { return finger_button(tools_, at); };
   input_.finger_on_cloth = [this](glm::vec2 at) { return scene_.viewport.takes(at); };
+  input_.finger_on_list = [](glm::vec2 at) { return gui::scrolls_at({at.x, at.y}); };
   if (!options_.lab.empty()) ui_.act([lab = options_.lab](Ui& ui) { begin_lab(ui.session, lab); });
   ui_.panels = options_.panels;
   last_time_ = window_time();

@@ -429,6 +429,64 @@ class Tests:
         wait_for(page, "two fingers zoom", lambda now: now["camera"]["distance"] < 0.9 * before["distance"])
         page.call("Page.close")
 
+    def test_two_fingers_press_nothing(self):
+        page = self.open("?report#hanging", width=1024, height=600, touch=True)
+        before = report(page)
+        for name in ["top.play", "constants.k_s.slider", "constants.k_s.value"]:
+            x, y, _ = place(report(page), name, 1024)
+            page.touch("touchStart", (x, y))
+            time.sleep(0.05)
+            page.touch("touchStart", (x, y), (x + 40, y))
+            for step in range(1, 6):
+                page.touch("touchMove", (x, y - 2 * step), (x + 40, y - 2 * step))
+                time.sleep(0.03)
+            page.touch("touchEnd")
+            time.sleep(0.5)
+        now = report(page)
+        assert now["preset"] == before["preset"] and now["paused"] == before["paused"] and not now["typing"], now["preset"]
+        # One finger alone scrolls what is a list.
+        x, y, _ = place(now, "constants.k_s.slider", 1024)
+        page.touch("touchStart", (x, y))
+        for step in range(1, 9):
+            page.touch("touchMove", (x, y - 10 * step))
+            time.sleep(0.05)
+        page.touch("touchEnd")
+        now = wait_for(page, "the column scrolls",
+                       lambda now: "constants.k_s.slider" not in now["controls"] or place(now, "constants.k_s.slider", 1024)[1] < y - 40)
+        assert now["preset"] == before["preset"], now["preset"]
+        page.call("Page.close")
+
+    def test_typing_by_touch(self):
+        page = self.open("?report#hanging", width=1024, height=768, scale=2, touch=True)
+
+        def tap(name):
+            x, y, _ = place(wait_for(page, name, lambda now: name in now["controls"]), name, 1024)
+            page.touch("touchStart", (x, y))
+            page.touch("touchEnd")
+
+        def entered(value):
+            page.key("Enter", "Enter", 13)
+            wait_for(page, f"k_s is {value}", lambda now: now["preset"]["forces"]["k_s"] == value)
+
+        def opened(taps):
+            for _ in range(taps):
+                tap("constants.k_s.value")
+                time.sleep(0.1)
+            wait_for(page, "a tap opens the number", lambda now: now["typing"])
+            page.wait("document.activeElement.tagName === 'INPUT'")
+
+        opened(1)
+        for text in ["8", "88"]:  # as a keyboard on the screen composes it
+            page.call("Input.imeSetComposition", text=text, selectionStart=len(text), selectionEnd=len(text))
+        page.call("Input.insertText", text="88")
+        entered(88)
+        opened(2)
+        page.call("Input.insertText", text="954")
+        page.ask("document.execCommand('delete')")  # deleteContentBackward
+        self.shot(page, "typing_by_touch")
+        entered(95)
+        page.call("Page.close")
+
     def test_in_a_course_page(self):
         """A frame leaves the course's page its focus, its wheel and its finger until it is used, and rests out of sight."""
         frame, flag = "frames[0]", "<iframe src='tyglab/?embed&preset=flag&panels=0&report' width='600' height='400'></iframe>"

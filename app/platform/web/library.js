@@ -245,7 +245,7 @@ addToLibrary({
       canvas.addEventListener('pointerdown', tyglabPage.finger(0));
       canvas.addEventListener('pointermove', tyglabPage.finger(1));
       canvas.addEventListener('pointerup', tyglabPage.finger(2));
-      canvas.addEventListener('pointercancel', tyglabPage.finger(2));
+      canvas.addEventListener('pointercancel', tyglabPage.finger(3));
       for (const kind of ['touchstart', 'touchmove', 'touchend'])  // no mouse is made of them, and no page moves
         canvas.addEventListener(kind, (event) => {
           if (tyglabPage.used) event.preventDefault();
