@@ -310,8 +310,47 @@ class Tests:
         blocked = "".join(f"""Object.defineProperty(window, '{name}', {{
             get() {{ throw new DOMException('no access', 'SecurityError'); }} }});""" for name in ["localStorage", "sessionStorage"])
         page = self.open("?report#hanging", script=blocked)
+        wait_for(page, "it says so", lambda now: any("storage is full or blocked" in said for said in now["messages"]))
         before = report(page)["frames"]
         wait_for(page, "it goes on", lambda now: now["frames"] > before + 10)
+        page.call("Page.close")
+
+    def test_reload(self):
+        """What was changed just before is there again, and so is a lab's step."""
+        page = self.open("?report#hanging")
+
+        def reload():
+            page.call("Page.reload")
+            time.sleep(1)
+            page.started()
+
+        command(page, "velocity verlet")
+        wait_for(page, "the method", lambda now: now["preset"]["solver"]["integrator"] == "velocity_verlet")
+        reload()
+        assert report(page)["preset"]["solver"]["integrator"] == "velocity_verlet", report(page)["preset"]["solver"]
+        page.call("Page.navigate", url=f"{self.home}/?report&lab=06_float")
+        time.sleep(1)
+        page.started()
+        press(page, "top.play")
+        wait_for(page, "the step is done", lambda now: now["lab"] and now["lab"]["done"])
+        press(page, "lab.Next")
+        wait_for(page, "the next step", lambda now: now["lab"]["step"] == 1)
+        page.wait("location.search.includes('step=2')")
+        page.call("Page.close")
+        page = self.open("?report&lab=01_hooke&step=3")
+        assert wait_for(page, "a step", lambda now: now["lab"])["lab"]["step"] == 2
+        reload()
+        assert wait_for(page, "it again", lambda now: now["lab"])["lab"]["step"] == 2
+        page.call("Page.close")
+
+    def test_clipboard_refused(self):
+        page = self.open("?report#hanging&k_s=80", script="Document.prototype.execCommand = () => false;")
+        command(page, "copy link")
+        page.wait("document.getElementById('copy').open && document.getElementById('text').value.includes('k_s=80')")
+        self.shot(page, "copy")
+        page.key("Escape", "Escape", 27)
+        page.wait("!document.getElementById('copy').open")
+        assert not any("opied" in said for said in report(page)["messages"]), report(page)["messages"]
         page.call("Page.close")
 
     def test_files(self):

@@ -42,7 +42,7 @@ void copy_as_options(Ui& ui) {
     }
   }
   ImGui::SetClipboardText(text.c_str());
-  ui.messages.note("Copied the constants as --set options.");
+  if (clipboard_took()) ui.messages.note("Copied the constants as --set options.");
 }
 
 /// A page's whole address; elsewhere the link alone, which any page and the command line take.
@@ -50,6 +50,7 @@ void copy_link(Ui& ui) {
   const Preset preset = ui.session.requested_preset();
   const std::string address = page_address(), link = link_to(preset, ui.session.document.label);
   ImGui::SetClipboardText((address + link).c_str());
+  if (!clipboard_took()) return;
   std::string note = "Copied the link to these constants";
   if (address.empty()) note += ", to be put at the end of a Tyglab page's address, or to be opened with tyglab 'LINK'";
   if (!preset.texture.empty() && !is_shipped_texture(preset.texture)) note += "; its own texture is not in it";
