@@ -1,5 +1,6 @@
 #include "app/session/background_steps.h"
 
+#include <cassert>
 #include <new>
 #include <utility>
 
@@ -32,6 +33,8 @@ bool BackgroundSteps::wanted(const Session& session) {
 }
 
 void BackgroundSteps::start(Session& session, int steps) {
+  assert(steps >= 0 && !busy());
+  assert(!session.rebuild.holds_present());  // who reads the cloth needs it to stand still
   Lockstep still = session.copies.lockstep.stand_in();
   std::shared_ptr<Simulation> shown = session.simulation->stand_in();
   cloth_ = std::exchange(session.simulation, std::move(shown));
@@ -48,6 +51,7 @@ void BackgroundSteps::start(Session& session, int steps) {
     made.advance = cloth->advance(steps);
     made.computing_s = computing_seconds(engine) - begun;
     made.steps = diverged ? steps : made.advance.steps;
+    assert(made.steps >= 0 && made.steps <= steps);
     made.t = diverged ? alone_until : cloth->time();
     copies.follow(made.t);
     cloth->stop_when({}), copies.stop_when({});
@@ -64,6 +68,7 @@ void BackgroundSteps::start(Session& session, int steps) {
 }
 
 BackgroundResult BackgroundSteps::take(Session& session) {
+  assert(busy() && copies_.size() == session.copies.lockstep.size());
   auto outcome = work_.take();
   cloth_->stop_when({}), copies_.stop_when({});  // work that has failed has not come to that
   take_appearance(*cloth_, *session.simulation);
@@ -88,6 +93,7 @@ void settle(Session& session) {
   } catch (const std::bad_alloc&) {
     // The cloth is that of the last whole step; whoever asked for the next one asks again.
   }
+  assert(!session.background_steps.busy());
 }
 
 }  // namespace tyglab

@@ -7,6 +7,7 @@
 // the same frame. Before any change of the cloth the step is stopped (settle), which undoes its work.
 #pragma once
 
+#include <cassert>
 #include <memory>
 
 #include "app/studies/job.h"
@@ -45,7 +46,10 @@ class BackgroundSteps {
   /// How much of the present step is done, 0 to 1, as far as its method can tell.
   double progress() const { return cloth_ ? cloth_->engine().step_progress() : 0; }
   /// The session's time at which they were begun, s; busy() must hold.
-  double begun() const { return begun_; }
+  double begun() const {
+    assert(busy());
+    return begun_;
+  }
 
  private:
   std::shared_ptr<Simulation> cloth_;  ///< the true one, while it is away

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <limits>
 #include <map>
@@ -97,6 +98,7 @@ void add_now(Session& session, const std::vector<Difference>& differences, bool 
   } catch (const std::exception& error) {
     return session.messages.error(error.what());
   }
+  assert(!copies.lockstep.empty() && copies.lockstep.size() <= Lockstep::most);
   if (as_reference) copies.reference = int(copies.lockstep.size()) - 1;
   copies.t = session.simulation->time();
   copies.forget();
@@ -107,10 +109,12 @@ void add_now(Session& session, const std::vector<Difference>& differences, bool 
 }  // namespace
 
 Simulation& cloth_of(const Session& session, int n) {
+  assert(n >= Copies::original && n < int(session.copies.lockstep.size()));
   return n == Copies::original ? *session.simulation : *session.copies.lockstep[std::size_t(n)].simulation;
 }
 
 std::optional<std::size_t> seat_of_style(const Session& session, int n) {
+  assert(n >= Copies::original && n < int(session.copies.lockstep.size()));
   for (int before = Copies::original; before < n; ++before)
     if (cloth_of(session, before).preset().integrator == cloth_of(session, n).preset().integrator)
       return session.copies.lockstep[std::size_t(n)].seat;
@@ -187,6 +191,7 @@ void remove_copy(Session& session, std::size_t n) {
   ++session.counts.copies;
   if (copies.reference == int(n)) copies.reference = Copies::original;
   if (copies.reference > int(n)) --copies.reference;
+  assert(copies.reference >= Copies::original && copies.reference < int(copies.lockstep.size()));
   copies.forget();
   ++session.counts.hands, ++session.counts.cloths;
 }
@@ -222,6 +227,7 @@ void copies_resume(Session& session) {
 }
 
 void copies_note(Session& session, double t, double computing_s) {
+  assert(!(computing_s < 0));
   Copies& copies = session.copies;
   if (copies.lockstep.empty()) return;
   copies.cost.add(t - copies.t, computing_s);
@@ -234,6 +240,7 @@ void copies_follow(Session& session, double computing_s) {
 }
 
 int copies_go_on(Session& session, int steps) {
+  assert(steps >= 0 && session.simulation->divergence());
   if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, steps), 0;
   const double dt = session.preset().dt;
   const auto start = std::chrono::steady_clock::now();

@@ -1,5 +1,7 @@
 #include "app/session/document.h"
 
+#include <cassert>
+
 #include "app/base/files.h"
 #include "app/base/settings.h"
 #include "app/base/text.h"
@@ -27,6 +29,7 @@ std::optional<Pins::Site> first_pick(const Session& session) {
 }  // namespace
 
 void begin_document(Session& session, Document document) {
+  assert(session.simulation != nullptr);
   session.document = std::move(document);
   if (session.show_texture)
     if (const auto problem = session.show_texture(session.preset().texture)) session.messages.error(*problem);
@@ -48,6 +51,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
 }
 
 void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildOrder order) {
+  assert(simulation != nullptr && !order.programs);
   settle(session);
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));

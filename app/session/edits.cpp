@@ -1,5 +1,6 @@
 #include "app/session/session.h"
 
+#include <cassert>
 #include <new>
 #include <optional>
 #include <utility>
@@ -71,6 +72,7 @@ std::string name_of(const Session& session, const Edit& edit) {
   if (const auto* grab = std::get_if<edit::Grab>(&edit)) return "pull" + at(grab->i, grab->j);
   if (const auto* pin = std::get_if<edit::Pin>(&edit)) return (pin->pinned ? "pin" : "unpinning") + at(pin->i, pin->j);
   if (const auto* body = std::get_if<edit::MoveBody>(&edit)) {
+    assert(body->index >= 0 && std::size_t(body->index) < session.preset().bodies.size());
     const bool round = session.preset().bodies[std::size_t(body->index)].shape == Body::Shape::sphere;
     return round ? "move of a sphere" : "move of a plane";
   }
@@ -144,6 +146,7 @@ std::optional<bool> build_beside(Session& session, const Plan& plan, unsigned ge
 }  // namespace
 
 HistoryEntry motion_entry(Session& session, std::string what) {
+  assert(!session.background_steps.busy());  // a stand-in is the cloth of before
   HistoryEntry entry{session.requested_preset(), session.simulation->time(), std::move(what)};
   entry.too_large = Snapshot::bytes(session.simulation->lattice()) > History::most_bytes;
   if (!entry.too_large) entry.state = std::make_shared<const Snapshot>(session.simulation->snapshot());
@@ -169,6 +172,7 @@ void apply_to_all(Session& session, const Edit& edit) {
 }
 
 void change_and_follow(Session& session, const edit::Change& change) {
+  assert(!session.rebuild.holds_present());
   const Preset before = session.preset();
   apply_to_all(session, change);
   follow_up(session, before, changes(before, change.preset));

@@ -1,6 +1,7 @@
 #include "app/session/history.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "app/base/text.h"
@@ -54,6 +55,7 @@ std::string in_words(const PresetField& field, const Preset& before, const Prese
 }  // namespace
 
 void History::record(HistoryEntry before, unsigned gesture) {
+  assert(!before.too_large || before.state == nullptr);
   redo_.clear();
   if (!begins(gesture)) return;
   gesture_ = gesture;
@@ -63,6 +65,7 @@ void History::record(HistoryEntry before, unsigned gesture) {
 }
 
 std::string History::what(bool backwards, const Preset& present) const {
+  assert(next(backwards) != nullptr);
   const HistoryEntry& entry = *next(backwards);
   if (!entry.what.empty()) return entry.what;
   return backwards ? change_in_words(entry.constants, present) : change_in_words(present, entry.constants);
@@ -71,6 +74,7 @@ std::string History::what(bool backwards, const Preset& present) const {
 HistoryEntry History::take(bool backwards, HistoryEntry now) {
   auto& from = backwards ? undo_ : redo_;
   auto& to = backwards ? redo_ : undo_;
+  assert(!from.empty() && (!now.too_large || now.state == nullptr));
   gesture_ = 0;
   HistoryEntry entry = std::move(from.back());
   from.pop_back();

@@ -1,6 +1,7 @@
 #include "app/session/lab_check.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -62,6 +63,7 @@ std::string value_in_words(Session& session, const std::string& name) {
 }
 
 void remember(Session& session, const Condition& check, bool holds, CheckMemory& memory) {
+  assert(!memory.set);
   memory = {true, holds, session.simulation->time(), value_in_words(session, check.name)};
 }
 
@@ -84,6 +86,7 @@ CheckState judge_lasting(Session& session, const Condition& check, CheckState no
     return now;
   }
   if (!memory.set) remember(session, check, true, memory);
+  assert(check.seconds > 0);
   const double lasted = session.simulation->time() - memory.t;
   return lasted >= check.seconds - 1e-9 || session.asleep() ? CheckState::holds : CheckState::open;
 }
@@ -261,6 +264,7 @@ std::optional<double> value_of(Session& session, const Operand& operand) {
     const auto value = observe(session, operand.name);
     return value ? std::optional(operand.factor * *value) : std::nullopt;
   }
+  assert(session.labs.run && session.labs.run->step < session.labs.run->records.size());
   const LabRun& run = *session.labs.run;
   if (run.step == 0) return std::nullopt;
   const auto& values = run.records[run.step - 1].outcome.values;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <span>
 
 #include "app/session/observables.h"
@@ -24,6 +25,7 @@ constexpr std::array<RelationSign, 6> relation_signs{{{"<", Relation::less, "<"}
                                                       {">=", Relation::at_least, "≥"},
                                                       {">", Relation::greater, ">"}}};
 
+static_assert(relation_signs.size() == std::size_t(Relation::greater) + 1);
 std::string known_name(const std::string& name) {
   if (is_observable(name)) return name;
   throw LabError("\"" + name + "\" is not a quantity or state that a check can use" +
@@ -32,6 +34,7 @@ std::string known_name(const std::string& name) {
 
 Operand word_operand(const std::string& name, const std::vector<std::string>& words) {
   if (words.size() != 3) throw LabError(name + " is compared with one word, such as check: integrator = euler");
+  assert(is_word(name) && find_observable(name)->words != nullptr);
   const auto known = find_observable(name)->words();
   if (std::find(known.begin(), known.end(), words[2]) == known.end())
     throw LabError(name + " is never \"" + words[2] + "\"" + did_you_mean(words[2], known, ".") +
@@ -148,6 +151,7 @@ std::string words_of_span(const Condition& condition) {
     case Span::lasting:
       return " for " + shortest_number(condition.seconds) + " s";
     case Span::when:
+      assert(condition.when.size() == 1);
       return " when " + (asks_divergence(condition.when[0]) ? "the cloth diverges" : words_of(condition.when[0]));
     case Span::narrowed:
       break;
@@ -157,6 +161,7 @@ std::string words_of_span(const Condition& condition) {
 
 /// "Nothing else changed", "The simulation diverges", "Integrator: Verlet", "Precision: not float".
 std::string words_of_word(const Condition& condition) {
+  assert(is_word(condition.name));
   const Observable& row = *find_observable(condition.name);
   const bool same = condition.relation == Relation::equal;
   if (!row.asked[1].empty()) return std::string(row.asked[same == (condition.right.word == "yes") ? 1 : 0]);
@@ -244,6 +249,7 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
   given.relative = after == 3 && *(within + 2) == "%";
   given.within = given.relative ? *off / 100 : *off;
   words.erase(within, words.end());
+  assert(!words.empty());
   // A number's unit is for people: any words.
   if (plain_number(words[0]) && (words.size() == 1 || words[1] != "*")) {
     given.unit = joined(std::span(words).subspan(1), " ");

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -22,6 +23,7 @@ constexpr std::array<std::string_view, 17> lab_keys{"open",  "set",  "predict", 
                                                     "do",    "stop", "check",   "find",    "needs",  "show",
                                                     "speed", "view", "color",   "minutes", "within"};
 
+static_assert(lab_keys.back() == "within");
 class LabReader {
  public:
   LabReader(std::string_view text, std::string_view source, const std::filesystem::path& folder)
@@ -31,6 +33,7 @@ class LabReader {
  private:
   [[noreturn]] void fail(const std::string& why) const { fail_at(line_, why); }
   [[noreturn]] void fail_at(int line, const std::string& why) const {
+    assert(line >= 1 && line <= line_);
     throw LabError(source_ + ":" + std::to_string(line) + ": " + why);
   }
   /// What `read` returns; what it finds wrong is wrong in this line.
@@ -56,7 +59,10 @@ class LabReader {
   void end_block();
   void end_opening();
   bool note_wrong_settings(Preset preset, const std::vector<std::string>& settings);
-  LabStep& step() { return lab_.steps.back(); }
+  LabStep& step() {
+    assert(!lab_.steps.empty());
+    return lab_.steps.back();
+  }
   bool first_step() const { return lab_.steps.size() == 1; }
   Prediction& prediction(std::string_view key);
 
@@ -158,6 +164,7 @@ void LabReader::begin_block() {
   if (had_block_)
     fail(lab_.steps.empty() ? "the lab has a ```lab block under its title already; put both in one"
                             : "this step has a ```lab block already; put both in one, or begin another step with ##");
+  assert(!in_block_);
   if (!lab_.steps.empty()) step().text = prose_.take();
   in_block_ = had_block_ = true;
   block_line_ = line_;
@@ -181,6 +188,7 @@ void LabReader::end_step() {
 
 /// A prediction has its sentences, of which one is right, or its number.
 void LabReader::end_prediction() {
+  assert(step().prediction && rights_ >= 0 && std::size_t(rights_) <= step().prediction->choices.size());
   const Prediction& given = *step().prediction;
   if (given.choices.empty() && !answered_)
     fail_at(predict_line_, "this prediction has no answer; add a line such as answer: 0.098 m within 10 %, or choices");
@@ -191,6 +199,7 @@ void LabReader::end_prediction() {
 }
 
 void LabReader::end_block() {
+  assert(in_block_ && block_line_ >= 1);
   in_block_ = false;
   if (lab_.steps.empty()) return;
   if (step().prediction) noted([&] { end_prediction(); });
@@ -199,6 +208,7 @@ void LabReader::end_block() {
 
 /// The preset must be there, and its settings such as it takes.
 void LabReader::end_opening() {
+  assert(step().open && open_line_ >= 1);
   const SceneSetup& opening = *step().open;
   try {
     const Preset preset = load_preset(find_preset(opening.preset).file);
@@ -217,6 +227,7 @@ void LabReader::end_opening() {
 /// Notes each that cannot be made after those before it, with its own line. False where it is only all together that
 /// they are wrong.
 bool LabReader::note_wrong_settings(Preset preset, const std::vector<std::string>& settings) {
+  assert(settings.size() == set_lines_.size());
   bool any = false;
   for (std::size_t k = 0; k < settings.size(); ++k) try {
       Setting setting = parse_setting(settings[k]);
@@ -341,6 +352,7 @@ void LabReader::take_needs(std::string_view value) {
 
 void LabReader::take_seconds(std::string_view value) {
   const std::vector<std::string> words = words_in(value);
+  assert(!words.empty());
   const auto seconds = plain_number(words[0]);
   if (!seconds || *seconds <= 0 || words.size() > 2 || (words.size() == 2 && words[1] != "s"))
     fail("stop: is a simulated time above 0, such as stop: 2 s");

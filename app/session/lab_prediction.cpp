@@ -1,6 +1,7 @@
 // A student's prediction: its input, and whether it was right.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -36,10 +37,12 @@ std::string refusal_of(const Prediction& asked, std::string_view typed) {
 }
 
 bool predict(Session& session) {
+  assert(session.labs.run);
   LabRun& run = *session.labs.run;
   StepRecord& record = run.record();
   if (!run.now().prediction || record.predicted) return false;
   const Prediction& asked = *run.now().prediction;
+  assert(record.chosen < int(asked.choices.size()));
   if (asked.choices.empty() ? !refusal_of(asked, record.typed).empty() : record.chosen < 0) return false;
   record.predicted = true;
   if (run.runs_on) session.pacing.playing = true;
@@ -47,13 +50,16 @@ bool predict(Session& session) {
 }
 
 void judge_prediction(Session& session, LabRun& run) {
+  assert(run.record().done);
   if (!run.now().prediction) return;
   const Prediction& asked = *run.now().prediction;
   StepRecord& record = run.record();
   if (!asked.choices.empty()) {
+    assert(asked.right < asked.choices.size());
     record.right = record.chosen == int(asked.right);
     return;
   }
+  assert(asked.within > 0);
   std::optional<double> answer = value_of(session, asked.answer);
   // Of a constant that was narrowed down the middle, wherever it stands at this moment.
   for (std::size_t k = 0; k < record.seen.size(); ++k)

@@ -1,5 +1,6 @@
 // The result of a lab, reported when the student leaves it.
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ std::string predictions_in_words(const LabRun& run) {
 
 /// "step 2", "steps 1 and 2", "steps 1, 2 and 4".
 std::string steps_in_words(const std::vector<int>& steps) {
+  assert(!steps.empty());
   std::string text = steps.size() == 1 ? "step " : "steps ";
   for (std::size_t n = 0; n < steps.size(); ++n)
     text += (n == 0 ? "" : n + 1 == steps.size() ? " and " : ", ") + std::to_string(steps[n]);
@@ -44,6 +46,7 @@ std::vector<int> skipped_steps(const LabRun& run, int done) {
 
 /// " with 1 of 3 steps done", " before its first step was done".
 std::string steps_done_in_words(int done, int steps) {
+  assert(done >= 0 && done < steps);
   if (done == 0) return " before its first step was done";
   return " with " + std::to_string(done) + " of " + std::to_string(steps) + " steps done";
 }
@@ -52,6 +55,7 @@ std::string steps_done_in_words(int done, int steps) {
 
 std::string lab_result(const LabRun& run, int done) {
   const int steps = int(run.lab.steps.size());
+  assert(run.records.size() == run.lab.steps.size() && done >= 0 && done <= steps);
   const std::vector<int> skipped = skipped_steps(run, done);
   const int here = int(std::count_if(run.records.begin(), run.records.end(), [](auto& record) { return record.done; }));
   const bool before = done == steps && here < steps;

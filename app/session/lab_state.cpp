@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -48,6 +49,7 @@ bool looks_back(const LabStep& step) {
 
 /// The last step up to `done` at which one can begin again.
 std::size_t resumed_at(const Lab& lab, int done) {
+  assert(done >= 0 && !lab.steps.empty());
   std::size_t at = std::size_t(done) < lab.steps.size() ? std::size_t(done) : 0;
   while (at > 0 && (!lab.steps[at].open || looks_back(lab.steps[at]))) --at;
   return at;
@@ -69,6 +71,7 @@ std::size_t nearest_beginning(const Lab& lab, std::size_t step, const std::strin
 
 /// What the step that follows wants to know of this moment, and what this one has compared with the one before.
 void keep_outcome(Session& session, LabRun& run) {
+  assert(run.record().done);
   LabStepOutcome& outcome = run.record().outcome;
   outcome = {};
   for (const Condition& check : run.now().checks)
@@ -111,6 +114,7 @@ std::vector<Operand> wanted_values(const LabRun& run) {
 
 /// The constants that a step opens with; none where they cannot be read.
 std::optional<Preset> opening_preset(const LabStep& step) {
+  assert(step.open);
   try {
     return with_settings(load_preset(find_preset(step.open->preset).file), step.open->settings);
   } catch (const std::exception&) {
@@ -137,6 +141,7 @@ std::string awaited_value(Session& session, const LabRun& run) {
 }
 
 void complete(Session& session, LabRun& run) {
+  assert(!run.record().done);
   run.record().done = run.show_explanation = true;
   judge_prediction(session, run);
   keep_outcome(session, run);
@@ -159,6 +164,7 @@ bool all_done(const std::vector<StepRecord>& records) {
 
 /// The lab as it was left, up to the step at which it goes on; nothing of one that was done.
 std::vector<StepRecord> records_of(const LabState& labs, const Lab& lab, std::size_t at) {
+  assert(at < lab.steps.size());
   const auto left = labs.left.find(lab.label);
   if (left == labs.left.end() || left->second.size() != lab.steps.size())
     return std::vector<StepRecord>(lab.steps.size());
@@ -192,6 +198,7 @@ void keep_experiment(Session& session) {
                   std::exchange(session.copies, {}), session.history, session.picked, session.auto_dt,
                   session.step_limit});
   if (list.size() > most) list.erase(list.begin() + 1);
+  assert(list.size() <= most);
 }
 
 void end_lab(Session& session) {
@@ -285,6 +292,7 @@ void begin_lab(Session& session, std::string_view label, std::optional<std::size
 }
 
 void enter_step(Session& session, std::size_t step) {
+  assert(session.labs.run && session.labs.run->records.size() == session.labs.run->lab.steps.size());
   LabRun& run = *session.labs.run;
   run.step = std::min(step, run.lab.steps.size() - 1);
   run.show_explanation = false;
@@ -299,11 +307,13 @@ void enter_step(Session& session, std::size_t step) {
 }
 
 void back_step(Session& session) {
+  assert(session.labs.run);
   const std::size_t step = session.labs.run->step;
   if (step > 0) enter_step(session, step - 1);
 }
 
 void set_up_step(Session& session) {
+  assert(session.labs.run);
   const LabStep& step = session.labs.run->now();
   if (!step.open) return;
   session.pacing.playing = false;
@@ -354,6 +364,7 @@ void back_to_experiment(Session& session) {
   if (labs.kept.empty()) return in_lab ? end_lab(session) : void();
   KeptExperiment kept = std::move(labs.kept.back());
   labs.kept.pop_back();
+  assert(kept.simulation != nullptr);
   if (unsaved(session)) keep_experiment(session);  // what was opened since
   if (in_lab) end_lab(session);
   session.pacing.playing = false;
@@ -449,6 +460,7 @@ Wants lab_wants(const Session& session) {
 }
 
 int up_to_stop(const Session& session, int due) {
+  assert(due >= 0);
   if (!session.labs.run || !session.labs.run->now().stop || session.labs.run->record().done || lab_waits(session))
     return due;
   const double left = *session.labs.run->now().stop - session.simulation->time(), dt = session.preset().dt;

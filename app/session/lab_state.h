@@ -8,6 +8,7 @@
 // (lab_waits). All of this is independent of the window: tests/app/lab_play_test.cpp plays every lab without one.
 #pragma once
 
+#include <cassert>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -58,11 +59,20 @@ struct LabRun {
   Preset begun;                   ///< the constants with which the present step began
   bool runs_on = false;           ///< the motion ran when the step began, and goes on once the prediction is made
   MotionWatch watch;
-  const LabStep& now() const { return lab.steps[step]; }
+  const LabStep& now() const {
+    assert(step < lab.steps.size());
+    return lab.steps[step];
+  }
   /// The card that the present step wants in sight, or else the last step before it that wanted one.
   std::string_view shown() const;
-  StepRecord& record() { return records[step]; }
-  const StepRecord& record() const { return records[step]; }
+  StepRecord& record() {
+    assert(step < records.size());
+    return records[step];
+  }
+  const StepRecord& record() const {
+    assert(step < records.size());
+    return records[step];
+  }
   /// Whether the present step waits for a prediction, which comes before all that it asks.
   bool to_be_predicted() const { return now().prediction && !record().predicted && !record().done; }
 };

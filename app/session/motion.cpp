@@ -1,5 +1,7 @@
 #include "app/session/motion.h"
 
+#include <cassert>
+
 #include "app/base/text.h"
 #include "app/session/session.h"
 #include "core/integrators/scheme.h"
@@ -35,6 +37,7 @@ void restart(Session& session) {
 }
 
 void go_back(Session& session, const Snapshot& then) {
+  assert(!session.background_steps.busy());
   session.rewind.go_back(*session.simulation, then);
   session.history.go_back(session.simulation->time());
   go_on_from_here(session);
@@ -106,6 +109,7 @@ void reset_everything(Session& session) {
 }
 
 void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int steps) {
+  assert(steps >= 0);
   if (hand && steps > 0) apply_edit(session, edit::MoveHand{*hand, steps});
 }
 
@@ -138,8 +142,11 @@ void toggle_auto_dt(Session& session) {
 }
 
 void watch_dt(Session& session) {
+  assert(session.auto_dt);
+  const auto ledger = session.simulation->ledger();
+  if (!ledger) return;  // it is kept from the next update on, or once its program is there
   const bool in_vain = session.auto_dt->in_vain();
-  const auto dt = session.auto_dt->look(session.preset(), session.simulation->time(), *session.simulation->ledger());
+  const auto dt = session.auto_dt->look(session.preset(), session.simulation->time(), *ledger);
   if (session.auto_dt->in_vain() && !in_vain)
     session.messages.warning("A smaller dt has not kept " + std::string(scheme(session.preset().integrator).title) +
                              " from adding energy, so dt stays. Use another method.");

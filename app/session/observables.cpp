@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <sstream>
@@ -109,12 +110,14 @@ Known fastest_particle(Session& session) {
 }
 Known mean_height(Session& session) {
   const Array<double>& y = session.simulation->read().x.y;
+  assert(!y.empty());
   double sum = 0;
   for (const double value : y) sum += value;
   return sum / double(y.size());
 }
 Known lowest_height(Session& session) {
   const Array<double>& y = session.simulation->read().x.y;
+  assert(!y.empty());
   return *std::min_element(y.begin(), y.end());
 }
 
@@ -389,6 +392,7 @@ ConstantPlace constant_place(std::string_view name) {
 }
 
 double constant_value(const ConstantPlace& place, const Preset& preset) {
+  assert(place.row != nullptr && place.component >= 0 && place.component < 3);
   if (const auto* number = std::get_if<double Preset::*>(&place.row->field)) return preset.**number;
   if (const auto* integer = std::get_if<int Preset::*>(&place.row->field)) return preset.**integer;
   return (preset.*std::get<glm::dvec3 Preset::*>(place.row->field))[place.component];

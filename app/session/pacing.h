@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tyglab {
@@ -18,6 +19,7 @@ class Pacing {
   double aim() const { return speed * slowed; }
   /// Slow motion begins or ends.
   void slow(double factor) {
+    assert(factor > 0);
     if (factor == slowed) return;
     slowed = factor;
     restart_measure();
@@ -28,6 +30,7 @@ class Pacing {
   /// Whole steps due after `real_seconds` more of real time (a pause in drawing counts as a tenth of a second at most),
   /// not more than the budget is likely to allow.
   int due(double real_seconds, double dt) {
+    assert(dt > 0 && !(real_seconds < 0));
     const double wish = aim() * std::min(real_seconds, 0.1);
     requested_ += wish, elapsed_ += std::min(real_seconds, 0.1);
     owed_ += wish;
@@ -38,6 +41,7 @@ class Pacing {
   }
   /// Tells what became of them. What could not be made is dropped: the simulation then runs slower than requested.
   void made(int steps, double dt, double wall_seconds) {
+    assert(steps >= 0 && dt > 0 && !(wall_seconds < 0));
     if (steps > 0) {
       const double cost = wall_seconds / steps;
       step_cost_s_ = step_cost_s_ > 0 ? 0.7 * step_cost_s_ + 0.3 * cost : cost;

@@ -1,5 +1,6 @@
 #include "app/session/rebuild.h"
 
+#include <cassert>
 #include <utility>
 
 #include "app/session/document.h"
@@ -47,6 +48,7 @@ bool takes_long(const Session& session, const Preset& preset) {
 }
 
 void swap_in(Session& session, std::shared_ptr<Simulation> simulation) {
+  assert(simulation != nullptr);
   std::shared_ptr<Simulation> last = std::exchange(session.simulation, std::move(simulation));
   copies_resume(session);
   session.rebuild.dispose(std::move(last));
@@ -55,6 +57,7 @@ void swap_in(Session& session, std::shared_ptr<Simulation> simulation) {
 }
 
 void BackgroundRebuild::order(const Session& session, BuildOrder order, History before) {
+  assert(!order.programs || (order.fresh && !order.restarts && !order.document));
   next_ = std::move(order);
   if (busy()) return;  // a cloth cannot be left half built: the next one follows it
   before_ = std::move(before);
@@ -62,6 +65,7 @@ void BackgroundRebuild::order(const Session& session, BuildOrder order, History 
 }
 
 void BackgroundRebuild::start(const Session& session) {
+  assert(next_ && !busy());
   making_ = std::move(*next_);
   next_.reset();
   dropped_ = false;
@@ -118,7 +122,8 @@ void BackgroundRebuild::poll(Session& session) {
 }
 
 void BackgroundRebuild::give_up(Session& session, const JobError& why) {
-  const bool stays = making_->target.engine != EngineKind::cpu && session.preset().engine == EngineKind::cpu;
+  // Nothing is being made any more where it was made and could not be taken.
+  const bool stays = making_ && making_->target.engine != EngineKind::cpu && session.preset().engine == EngineKind::cpu;
   making_.reset(), next_.reset();
   session.history = std::move(before_);
   session.messages.error(
@@ -135,6 +140,7 @@ bool BackgroundRebuild::available(const BuildOrder& made) const {
 }
 
 void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
+  assert(making_);
   BuildOrder order = *std::exchange(making_, std::nullopt);
   const bool use = available(order);
   dropped_ = false;
@@ -148,6 +154,8 @@ void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
 }
 
 void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order) {
+  assert(order.programs == (made.simulation == nullptr));
+  assert(order.programs || made.simulation->lattice() == lattice_of(order.target));  // nothing that was not ordered
   edit::Change change{order.target};
   if (order.programs) {
     change_and_follow(session, change);
@@ -161,6 +169,7 @@ void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order
 
 /// Continues with the request that came during the build.
 void BackgroundRebuild::continue_with_next(Session& session) {
+  assert(next_ && !busy());
   const edit::Change change{next_->target};
   if (change.preset == session.preset()) return next_.reset();
   next_->programs = !session.simulation->rebuilds(change);

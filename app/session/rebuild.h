@@ -12,6 +12,7 @@
 // run. If the device fails, the CPU engine opens the preset.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -79,7 +80,10 @@ class BackgroundRebuild {
   /// What has been asked for is not wanted any more.
   void drop() { next_.reset(), dropped_ = busy(); }
   /// Keeps an edit for the cloth being built.
-  void defer(Edit edit) { deferred_.push_back(std::move(edit)); }
+  void defer(Edit edit) {
+    assert(holds_present());
+    deferred_.push_back(std::move(edit));
+  }
   /// The cloth being built gets another name.
   void rename(const std::string& name, const std::string& description);
   /// Called in every frame: takes the cloth that is ready, if one is.

@@ -119,6 +119,7 @@ void sample_start(Session& session) {
 void sample(Session& session) {
   Recorded& to = session.recorded;
   const Wants& wants = session.wants;
+  assert(to.sampled <= session.steps_made);
   const std::int64_t made = session.steps_made - to.sampled;
   to.sampled = session.steps_made;
   if (made == 0) return;
@@ -160,6 +161,7 @@ void Series::add(double t, std::span<const double> values) {
   if (std::exchange(interrupted_, false)) gaps_.push_back(t_.size());
   t_.push_back(t);
   for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(values[k]);
+  assert(t_.size() <= most && (gaps_.empty() || gaps_.back() < t_.size()));
 }
 
 void Series::go_on_from(double t) {
@@ -217,6 +219,7 @@ void ReferenceCurves::begin(const Simulation& weight, double y, double v, double
 
 /// What counts while the weight moves; each companion keeps its method.
 void ReferenceCurves::take_constants(const Preset& preset) {
+  assert(companions_[0] != nullptr);
   const WeightMotion now = exact_weight(exact_, t_ - exact_t_);
   exact_ = starting_at(preset, now.y, now.v);
   exact_t_ = t_;
@@ -230,6 +233,7 @@ void ReferenceCurves::take_constants(const Preset& preset) {
 }
 
 ReferenceCurves::Heights ReferenceCurves::follow(Simulation& weight, std::int64_t steps) {
+  assert(weight.preset().kind == Kind::one_weight && steps >= 0);
   const bool from_start = weight.steps() == steps;
   const bool unseen = companions_[0] == nullptr || weight.steps() != steps_ + steps;
   if (from_start) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -24,7 +25,10 @@ class Series {
   bool empty() const { return t_.empty(); }
   std::size_t size() const { return t_.size(); }
   std::span<const double> t() const { return t_; }
-  std::span<const double> column(std::size_t k) const { return columns_[k]; }
+  std::span<const double> column(std::size_t k) const {
+    assert(k < columns_.size());
+    return columns_[k];
+  }
   /// One value a column. Samples that do not come after the last one start a new series.
   void add(double t, std::span<const double> values);
   /// Steps pass of which there are no samples: a curve has a gap before the next one.

@@ -2,6 +2,7 @@
 #include "app/session/rewind.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "app/session/motion.h"
 #include "app/session/session.h"
@@ -22,12 +23,15 @@ void Rewind::look(Simulation& simulation) {
   if (kept_.back().bytes() > most_bytes / fewest) kept_.back().held.reset();
   bytes_ += kept_.back().bytes();
   while (bytes_ > most_bytes || t - kept_.front().t > longest) {
+    assert(bytes_ >= kept_.front().bytes());
     bytes_ -= kept_.front().bytes();
     kept_.pop_front();
   }
+  assert(!kept_.empty());
 }
 
 const Snapshot* Rewind::before(const Simulation& simulation, double t, double seconds) const {
+  assert(seconds >= 0);
   if (kept_.empty() || !simulation.fits(kept_.front())) return nullptr;
   for (auto at = kept_.rbegin(); at != kept_.rend(); ++at)
     if (t - at->t >= seconds) return &*at;
@@ -40,15 +44,18 @@ const Snapshot* Rewind::unchanged_before(const Simulation& simulation, double t,
 }
 
 void Rewind::go_back(Simulation& simulation, const Snapshot& then) {
+  assert(simulation.fits(then));
   simulation.restore(then);
   forget_after(then.t);
 }
 
 void Rewind::forget_after(double t) {
   while (!kept_.empty() && kept_.back().t > t) {
+    assert(bytes_ >= kept_.back().bytes());
     bytes_ -= kept_.back().bytes();
     kept_.pop_back();
   }
+  assert(!kept_.empty() || bytes_ == 0);
   if (changed_ && changed_->t > t) changed_.reset();
 }
 
@@ -91,6 +98,7 @@ void begin_replay(Session& session) {
   if (changed_since_divergence(session)) return;  // a large cloth takes them beside the frames
   Simulation& simulation = *session.simulation;
   const double dt = session.preset().dt, cost = session.pacing.step_cost_s(), former = session.pacing.speed;
+  assert(start != nullptr);
   go_back(session, *start);
   // States are kept every tenth of a second.
   const std::int64_t left = of.step - 1 - Replay::steps - simulation.steps();
@@ -136,6 +144,7 @@ void StepInspector::update(const Session& session) {
   const bool there = session.picked && session.preset().kind == Kind::cloth && !simulation.divergence() &&
                      !session.rebuild.holds_present() && simulation.lattice().size() <= largest;
   if (!there) return drop();
+  assert(simulation.lattice().contains(session.picked->i, session.picked->j));
   const bool other = !trace_ || trace_->i != session.picked->i || trace_->j != session.picked->j;
   const bool moved = revision_ != simulation.revision();
   if (!other && (!moved || (session.pacing.playing && session.now < looked_ + moving_pause))) return;

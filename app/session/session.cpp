@@ -2,6 +2,7 @@
 #include "app/session/session.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <new>
 
@@ -56,6 +57,7 @@ StudyMoment Session::study_moment() const {
 }
 
 void Session::update(double real_seconds, const SessionInput& input) {
+  assert(!(real_seconds < 0));  // the clock goes on
   now += real_seconds;
   try {
     advance(real_seconds, input);
@@ -122,6 +124,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
 
 /// In pieces, so that a wrong guess of a step's cost cannot hold the window up.
 void Session::make_steps(int due, const SessionInput& input) {
+  assert(due >= 0);
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const double dt = preset().dt;
@@ -135,6 +138,7 @@ void Session::make_steps(int due, const SessionInput& input) {
     const int piece = cost > 0 && !input.after_steps
                           ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, std::min(due - made, to_sample))
                           : 1;
+    assert(piece >= 1 && piece <= due - made);
     const double before = spent();
     AdvanceResult advance;
     if (BackgroundSteps::wanted(*this)) {
@@ -149,6 +153,7 @@ void Session::make_steps(int due, const SessionInput& input) {
       advance = simulation->advance(piece);
       copies_follow(*this, computing_seconds(engine) - begun);
     }
+    assert(advance.steps >= 0 && advance.steps <= piece);
     stepping_s = spent();
     made += advance.steps, steps_made += advance.steps;
     if (steps_made - recorded.sampled >= samples) sample(*this);
@@ -169,6 +174,7 @@ void Session::take_steps() {
 }
 
 void Session::made_steps(int steps, double seconds, double dt) {
+  assert(recorded.sampled <= steps_made);
   pacing.made(steps, dt, seconds);
   pause_at_stop(*this);
   if (auto_dt && !simulation->divergence()) watch_dt(*this);
@@ -197,6 +203,7 @@ void Session::warn_of(const AdvanceResult& advance) {
 }
 
 void fall_back(Session& session, const std::string& why) {
+  assert(!session.background_steps.busy());
   Preset next = session.preset();
   if (next.engine == EngineKind::cpu) throw EngineError(why);
   next.engine = EngineKind::cpu;

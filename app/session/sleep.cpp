@@ -1,6 +1,7 @@
 #include "app/session/sleep.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -27,6 +28,7 @@ std::array<glm::dvec3, 3> scouts(const Simulation& simulation) {
 }  // namespace
 
 RestTolerance rest_tolerance(const Preset& p) {
+  assert(p.L > 0 && p.rows >= 1 && p.columns >= 1);
   const double side = p.L * std::max({p.rows - 1, p.columns - 1, 1});
   const double swing = p.g != 0 ? std::sqrt(side / std::abs(p.g)) : 1;
   return {still_part * side, 2 * swing, error_part * side / swing, error_part * side};
@@ -45,6 +47,7 @@ void Sleep::look(Simulation& simulation, bool touched) {
   if (!scouts_ || !scouts_stay(simulation)) return set_out(simulation);
   const RestTolerance tolerance = rest_tolerance(simulation.preset());
   const double rested = simulation.time() - since_;
+  assert(!(rested < 0));
   // To look at the whole cloth takes time, and of a graphics card a copy: only once a few particles are still.
   if (anchor_.empty() && rested < tolerance.window / 4) return;
   if (anchor_.empty()) return take_anchor(simulation);
@@ -62,6 +65,7 @@ void Sleep::set_out(const Simulation& simulation) {
 }
 
 bool Sleep::scouts_stay(const Simulation& simulation) const {
+  assert(scouts_);
   const double radius = rest_tolerance(simulation.preset()).radius;
   const auto now = scouts(simulation);
   return std::equal(now.begin(), now.end(), scouts_->begin(), [radius](const glm::dvec3& a, const glm::dvec3& b) {
@@ -79,6 +83,7 @@ void Sleep::take_anchor(const Simulation& simulation) {
 }
 
 bool Sleep::near_anchor(const Simulation& simulation, double radius) const {
+  assert(!anchor_.empty());
   const PositionView x = simulation.positions();
   if (anchor_.size() != std::size_t(x.rows) * x.columns) return false;
   auto place = anchor_.begin();
@@ -92,6 +97,7 @@ bool Sleep::near_anchor(const Simulation& simulation, double radius) const {
 
 double largest_speed(Simulation& simulation) {
   const VectorField<double>& v = simulation.read().v;
+  assert(v.y.size() == v.x.size() && v.z.size() == v.x.size());
   double largest = 0;
   for (std::size_t p = 0; p < v.x.size(); ++p)
     largest = std::max(largest, v.x[p] * v.x[p] + v.y[p] * v.y[p] + v.z[p] * v.z[p]);

@@ -77,7 +77,10 @@ struct DrawnSites {
   int column(int j) const { return std::min(j * every, whole.columns - 1); }
 
  private:
-  int count(int all) const { return (all - 1 + every - 1) / every + 1; }
+  int count(int all) const {
+    assert(every >= 1 && all >= 1);
+    return (all - 1 + every - 1) / every + 1;
+  }
 };
 
 }  // namespace tyglab

@@ -161,6 +161,7 @@ bool Tears::tear(int direction, int i, int j) {
 
 bool Tears::triangle_whole(int i, int j, int which) const {
   if (masks_.empty()) return true;
+  assert((which == 0 || which == 1) && lattice_.contains(i + 1, j + 1));
   const auto& corners = quad_triangles[(i + j) & 1][which];
   for (int e = 0; e < 3; ++e) {
     const Corner a = corners[e], b = corners[(e + 1) % 3];

@@ -81,6 +81,7 @@ class Tears {
   const Lattice& lattice() const { return lattice_; }
   bool untorn() const { return masks_.empty(); }
   bool whole(int direction, int i, int j) const {
+    assert(direction >= 0 && direction < int(directions.size()));
     return masks_.empty() || (masks_[index(i, j)] >> direction & 1) != 0;
   }
   /// Mask row i, or nullptr while the cloth is untorn.

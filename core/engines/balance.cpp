@@ -1,6 +1,7 @@
 #include "core/engines/balance.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -58,6 +59,10 @@ Balance judge(const StageForces& forces, double tolerance) {
 template <class R>
 Balance balance_of(const StageView<R>& stage) {
   const Preset& p = stage.preset;
+  assert(stage.h > 0 && p.m > 0);
+  assert(stage.stride >= stage.lattice.columns);
+  assert(stage.fixed.empty() || stage.fixed.size() >= std::size_t(stage.lattice.size()));
+  assert(stage.tears.untorn() || stage.tears.lattice() == stage.lattice);
   const Measure<R> measure{stage, stage.h * stage.h / p.m};
   double left = 0, change = 0, size = 0;  // of velocities, squared; of positions
   for (int i = 0; i < stage.lattice.rows; ++i)

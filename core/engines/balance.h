@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@ constexpr double balance_tolerance = sizeof(R) == 8 ? 1e-6 : 1e-4;
 /// `size`, m, make of forces. `stiffness`: k h²/m of its stiffest springs. As everywhere here, forces are multiplied by
 /// h²/m.
 inline double last_digits(double epsilon, double size, double stiffness) {
+  assert(epsilon > 0 && !(size < 0) && !(stiffness < 0));
   return 4 * epsilon * size * (1 + stiffness);
 }
 

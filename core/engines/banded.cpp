@@ -7,12 +7,14 @@
 namespace tyglab {
 
 void BandedCholesky::begin(int size, int band) {
+  assert(size > 0 && band >= 0);
   size_ = size, band_ = band;
   elements_.assign(std::size_t(size) * (band + 1), 0.0);
   column_.assign(std::size_t(band) + 1, 0.0);
 }
 
 bool BandedCholesky::factor(const Stop& stop) {
+  assert(size_ > 0 && elements_.size() == std::size_t(size_) * (band_ + 1));
   for (int k = 0; k < size_; ++k) {
     const double pivot = at(k, k);
     if (stop && stop()) return false;
@@ -37,6 +39,7 @@ void BandedCholesky::solve(std::span<double> b) const {
   for (int k = 0; k < size_; ++k) {
     double sum = b[k];
     for (int c = std::max(0, k - band_); c < k; ++c) sum -= at(k, c) * b[c];
+    assert(at(k, k) > 0);  // a factor has roots of pivots there
     b[k] = sum / at(k, k);
   }
   for (int k = size_ - 1; k >= 0; --k) {
@@ -53,6 +56,7 @@ void BandedCholesky::solve(std::span<std::array<double, 4>> b) const {
     std::array<double, 4> sum = b[k];
     for (int c = first; c < k; ++c)
       for (int n = 0; n < 4; ++n) sum[n] -= row[c - first] * b[c][n];
+    assert(at(k, k) > 0);
     for (int n = 0; n < 4; ++n) b[k][n] = sum[n] / at(k, k);
   }
   for (int k = size_ - 1; k >= 0; --k) {

@@ -1,6 +1,8 @@
 #include "core/engines/direct_solve.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cstdlib>
 
 namespace tyglab {
 namespace {
@@ -32,6 +34,7 @@ void DirectSolver::add_spring(const LinearSystem& system, int d, int i, int j) {
   const SpringStiffness spring = system.spring(d, i, j);
   const bool owner = !system.fixed(i, j), other = !system.fixed(oi, oj);
   const int p = first(system.lattice, i, j), q = first(system.lattice, oi, oj);
+  assert(std::abs(p - q) <= 3 * reach(system.lattice));  // both ends lie in the band
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) {
       const double add = spring.a[r] * spring.a[c] + (r == c ? spring.t : 0);
@@ -42,6 +45,7 @@ void DirectSolver::add_spring(const LinearSystem& system, int d, int i, int j) {
 }
 
 void DirectSolver::assemble(const LinearSystem& system) {
+  assert(system.own > 0);
   const Lattice& lattice = system.lattice;
   matrix_.begin(3 * lattice.size(), 3 * reach(lattice) + 2);
   for (int n = 0; n < 3 * lattice.size(); ++n) matrix_.at(n, n) = system.own;
@@ -53,6 +57,7 @@ void DirectSolver::assemble(const LinearSystem& system) {
 
 bool DirectSolver::solve(const LinearSystem& system, const std::function<void(int i, int j, int c, double s)>& take,
                          const Stop& stop) {
+  assert(system.fixed && system.spring && system.right_side && take);
   const Lattice& lattice = system.lattice;
   assemble(system);
   if (!matrix_.factor(stop)) return false;

@@ -82,6 +82,8 @@ struct PositionView {
   const float* f[3] = {nullptr, nullptr, nullptr};
   const double* d[3] = {nullptr, nullptr, nullptr};
   glm::dvec3 at(int i, int j) const {
+    assert(i >= 0 && i < rows && j >= 0 && j < columns);
+    assert((f[0] == nullptr) != (d[0] == nullptr));
     const std::size_t p = std::size_t(i) * stride + j;
     return f[0] ? glm::dvec3(f[0][p], f[1][p], f[2][p]) : glm::dvec3(d[0][p], d[1][p], d[2][p]);
   }
@@ -191,7 +193,10 @@ class Engine {
   /// and is made once only: repeated it would not give the same bits. What a step does before and after it solves, and
   /// a first iteration or pass, takes its time all the same: SolveCounts::longest_limited says how long. The CPU engine
   /// alone can do that; others go on to the solution.
-  void limit_steps(double seconds) { step_limit_ = seconds; }
+  void limit_steps(double seconds) {
+    assert(seconds >= 0);
+    step_limit_ = seconds;
+  }
   double step_limit() const { return step_limit_; }
   /// The part of the present step that is done, 0 to 1, as far as the method can tell: 0 for a method whose steps are
   /// all alike. Any thread may ask.
@@ -200,7 +205,10 @@ class Engine {
  protected:
   const Stop& stop() const { return stop_; }
   bool stops() const { return stop_ && stop_(); }
-  void set_step_progress(double part) { step_progress_ = part; }
+  void set_step_progress(double part) {
+    assert(!(part < 0) && !(part > 1 + 1e-9));
+    step_progress_ = part;
+  }
   /// A step begins, whose time is limited.
   void begin_limit() { step_begun_ = std::chrono::steady_clock::now(); }
   /// Real time since then, s.
@@ -208,7 +216,10 @@ class Engine {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - step_begun_).count();
   }
   /// Whether this part of its time is over.
-  bool out_of_time(double part) const { return step_limit_ > 0 && step_seconds() >= part * step_limit_; }
+  bool out_of_time(double part) const {
+    assert(part >= 0 && part <= 1 + 1e-9);
+    return step_limit_ > 0 && step_seconds() >= part * step_limit_;
+  }
 
  private:
   Stop stop_;

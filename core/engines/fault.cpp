@@ -1,6 +1,7 @@
 #include "core/engines/fault.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -141,11 +142,13 @@ double farthest(const StateView<R>& state, int i, int j) {
 }  // namespace
 
 double max_elongation(double max_displacement) {
+  assert(!(max_displacement < 0));
   return 2 * std::numbers::sqrt3 * max_displacement;
 }
 
 template <class R>
 double growth_left(const Preset& preset, const LongestSquared& longest) {
+  assert(!(longest.straight < 0) && !(longest.diagonal < 0) && !(longest.bending < 0));
   double slack = std::numeric_limits<double>::infinity();
   for (const auto& [direction, squared] : {std::pair(0, longest.straight), std::pair(2, longest.diagonal),
                                            std::pair(int(stretch_directions), longest.bending)}) {
@@ -168,12 +171,16 @@ double distance2(const StateView<R>& state, int i, int j, const Direction& to) {
 template <class R>
 bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
                 Fault& fault, double& divergence_budget) {
+  assert(state.stride >= lattice.columns);
+  assert(tears.untorn() || tears.lattice() == lattice);
   return !finite(lattice, state, fault) || !within_bounds(preset, lattice, tears, state, fault, divergence_budget);
 }
 
 template <class R>
 Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
                  double to_velocity) {
+  assert(preset.m > 0 && to_velocity > 0);
+  assert(state.stride >= lattice.columns);
   Motion motion;
   double speeds = 0, pushes = 0;
   const bool meets_bodies = preset.kind == Kind::cloth && !preset.bodies.empty();
@@ -202,6 +209,7 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
 template <class R>
 bool find_runaway(const MotionLimit& limit, const Lattice& lattice, const StateView<R>& state, double to_velocity,
                   Fault& fault) {
+  assert(to_velocity > 0 && state.stride >= lattice.columns);
   constexpr double about = 1 + 1e-3;
   double sum = 0, fastest = 0, far = 0;
   Fault of_speed{0, 0, "velocity", 0}, of_place{0, 0, "position", 0};

@@ -2,6 +2,7 @@
 // the scene can have caused. Engines check for them only when particles have moved far or fast enough (StepGuard).
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -30,7 +31,10 @@ template <class R>
 struct StateView {
   const R *x, *v;
   std::ptrdiff_t stride;
-  static const R* row(const R* field, std::ptrdiff_t stride, int i, int c) { return field + (3 * i + c) * stride; }
+  static const R* row(const R* field, std::ptrdiff_t stride, int i, int c) {
+    assert(field != nullptr && stride > 0 && i >= 0 && c >= 0 && c < 3);
+    return field + (3 * i + c) * stride;
+  }
   const R* x_row(int i, int c) const { return row(x, stride, i, c); }
   const R* v_row(int i, int c) const { return row(v, stride, i, c); }
 };

@@ -1,6 +1,7 @@
 #include "core/engines/motion_limit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -33,6 +34,7 @@ double reach_squared(const Preset& p, const Lattice& lattice) {
 }  // namespace
 
 void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, const glm::dvec3& hand) {
+  assert(p.dt > 0 && p.m > 0 && lattice.size() > 0);
   constexpr double stretch_springs = 8, bending_springs = 4, triangles = 8, corners = 3;
   const bool cloth = p.kind == Kind::cloth;
   // What the hand lets go keeps its velocity.
@@ -52,23 +54,27 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
 }
 
 void MotionLimit::begin(const Motion& motion) {
+  assert(!(motion.squared < 0) && !(motion.farthest < 0) && !(motion.pushed < 0));
   begun_squared_ = motion.squared, gained_ = 0;
   begun_farthest_ = farthest_ = motion.farthest;
   push(motion.pushed);
 }
 
 void MotionLimit::push(double distance) {
+  assert(!(distance < 0));
   gained_ += fastest_mode_ * distance, farthest_ += distance;
   update();
 }
 
 void MotionLimit::update() {
+  assert(!(gained_ < 0) && !(begun_squared_ < 0));
   const double most = std::sqrt(begun_squared_) + gained_;
   given_squared_ = most * most + hand_squared_ + std::pow(noise_ * begun_farthest_, 2);
   most_squared_ = factor * (given_squared_ + reach_squared_);
 }
 
 void MotionLimit::pass(double dt) {
+  assert(!(dt < 0));  // time goes on, and with it the bounds
   gained_ += acceleration_ * dt, begun_squared_ += damping_ * dt;
   update();
   farthest_ += std::sqrt(most_squared_) * dt;

@@ -7,6 +7,7 @@
 // follows from the start and from time alone, and costs a few operations per step.
 #pragma once
 
+#include <cassert>
 #include <glm/vec3.hpp>
 #include <limits>
 
@@ -45,6 +46,7 @@ class MotionLimit {
   double farthest() const { return farthest_; }
   /// Whether particles may be too fast if none moves by more than half of `elongation` (max_elongation) within dt, s.
   bool may_be_exceeded(double elongation, double dt) const {
+    assert(dt > 0);
     const double speed = elongation / (2 * dt);
     return particles_ * speed * speed > most_squared_;
   }

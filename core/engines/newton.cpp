@@ -1,6 +1,7 @@
 #include "core/engines/newton.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,7 @@ double take_step(ImplicitStage& stage, double slope, SolveCounts& counts) {
       if (lower != 0) upper_slope /= 2;
       lower = part, lower_slope = now.slope;
     }
+    assert(!(lower > upper));  // what is between them is halved or so in each try
     const double secant = lower + (upper - lower) * lower_slope / (lower_slope - upper_slope);
     part = std::clamp(secant, lower + 0.01 * (upper - lower), lower + 0.9 * (upper - lower));
   }
@@ -52,6 +54,7 @@ double take_whole_step(ImplicitStage& stage, SolveCounts& counts) {
 }  // namespace
 
 Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) {
+  assert(rules.most >= 1 && rules.tolerance > 0 && rules.epsilon > 0 && rules.h > 0);
   const double first = stage.evaluate();
   ++counts.force_evaluations;
   // A step that moves nothing by more than the last digits of a position cannot be bettered.

@@ -8,6 +8,7 @@
 // S. J. Wright, Numerical Optimization, 2nd ed. (2006), 7.1.
 #pragma once
 
+#include <cassert>
 #include <functional>
 
 #include "core/cloth/lattice.h"
@@ -24,6 +25,7 @@ constexpr int max_gradient_steps(const Lattice& lattice) {
 
 /// Diagonal of A without the springs.
 inline double own_stiffness(const Preset& preset, double h) {
+  assert(preset.m > 0 && h > 0);
   return preset.kind == Kind::one_weight ? 1 + (h * preset.k_d + h * h * preset.k) / preset.m : 1;
 }
 
@@ -68,6 +70,7 @@ class ImplicitStage {
   virtual void note_progress(double part) = 0;
   /// Newton iteration `n` of at most `most` begins.
   void begin_iteration(int n, int most) {
+    assert(n >= 0 && n < most);
     done_ = double(n) / most, share_ = 1.0 / most;
     note_progress(done_);
   }

@@ -12,6 +12,7 @@ namespace tyglab {
 
 bool lets_go(std::span<const int> pinned, int held, std::span<const int> next_pinned, int next_held) {
   assert(std::is_sorted(next_pinned.begin(), next_pinned.end()));
+  assert(next_held < 0 || !std::binary_search(next_pinned.begin(), next_pinned.end(), next_held));
   const auto stays = [&](int p) {
     return p == next_held || std::binary_search(next_pinned.begin(), next_pinned.end(), p);
   };
@@ -51,12 +52,16 @@ int StepGuard::steps_ahead(int most, bool tears_by_itself) const {
 }
 
 bool StepGuard::overload_within(int steps) const {
+  assert(steps >= 1);
   return rules_.tearing && tear_budget_ < steps * elongation_ && elongation_ < divergence_budget_;
 }
 
 BatchResult StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
+  assert(count >= 1);
   for (int n = 0; n < count; ++n) {
     const StepMeasures step = engine.measures(n);
+    assert(step.dt > 0 && step.left_inside >= 0);
+    assert(!(step.elongation < 0) && !(step.residual < 0) && step.limited_seconds >= 0);
     limit_.pass(step.dt);
     elongation_ = std::isfinite(step.elongation) ? step.elongation : std::numeric_limits<double>::infinity();
     divergence_budget_ -= elongation_, tear_budget_ -= elongation_;
@@ -88,6 +93,7 @@ void StepGuard::keep_backup(GuardedSteps& engine, const Tears& tears) {
 
 /// `unjudged`: how many of the last steps are still to be judged.
 void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudged) {
+  assert(since_backup_ >= 0 && unjudged >= 0 && unjudged <= steps);
   if (rules_.tearing) tears = tears_backup_;
   spend_budgets();
   limit_ = limit_backup_;
@@ -98,6 +104,7 @@ void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudg
 }
 
 void StepGuard::remeasure(GuardedSteps& engine, const Tears& tears) {
+  assert(energy_stale_ || pushes_stale_);
   const Motion motion = engine.motion(tears);
   energy_stale_ ? limit_.begin(motion) : limit_.push(motion.pushed);
   energy_stale_ = pushes_stale_ = false;
@@ -113,6 +120,7 @@ BatchResult StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tear
 AdvanceResult StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once) {
   AdvanceResult result;
   const int torn_before = tears.torn_count();
+  assert(steps >= 0);
   Fault fault{};
   if (energy_stale_ || pushes_stale_) remeasure(engine, tears);
   while (result.steps < steps && !result.diverged && !result.released && !result.stopped) {
@@ -131,6 +139,9 @@ AdvanceResult StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, 
       assert(made.count <= most);
       rolled_back = made.end == BatchEnd::rolled_back;
       if (rolled_back) made = examine_last(engine, made.count, tears, fault);
+      assert(made.count >= 0 && made.end != BatchEnd::rolled_back);
+      assert(made.end != BatchEnd::fault || made.count < most);
+      assert(made.end != BatchEnd::complete || made.count > 0);  // or this would never end
     } catch (const std::bad_alloc&) {
       // Back to the last step that counts. It has been made before, so this asks for no memory that was not there.
       repeat(engine, since_backup_, tears, 0);
@@ -148,9 +159,11 @@ AdvanceResult StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, 
     since_backup_ = result.diverged || rolled_back || rules_.costly_steps ? -1 : since_backup_ + made.count;
     torn_ = tears.torn_count();
   }
+  assert(result.steps <= steps);
   result.i = fault.i, result.j = fault.j, result.di = fault.di, result.dj = fault.dj, result.value = fault.value;
   if (result.diverged) result.quantity = fault.quantity, result.excess = fault.excess;
   result.torn = tears.torn_count() - torn_before;
+  assert(result.torn >= 0);
   result.left_inside = left_inside_;
   result.hand_force = hand_force_;
   return result;

@@ -7,6 +7,7 @@
 // identical bits.
 #pragma once
 
+#include <cassert>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
@@ -94,12 +95,16 @@ class StepGuard {
     bool costly_steps = false;
   };
   /// Sets what to watch for. Call invalidate() where the scene has changed.
-  void set_rules(const Rules& rules) { rules_ = rules; }
+  void set_rules(const Rules& rules) {
+    assert(rules.F_release >= 0);
+    rules_ = rules;
+  }
 
   /// Voids the budgets and the backup: something other than the particles' motion has changed the state.
   void invalidate();
   /// Takes constants, wind and hand as they are from now on; of the hand, the velocity of the held particle, m/s.
   void set_scene(const Preset& preset, const Lattice& lattice, const Held& held) {
+    assert(held.particle < lattice.size());
     limit_.set_scene(preset, lattice, held.particle >= 0, held.velocity);
   }
   /// The motion begins with this one.

@@ -1,6 +1,7 @@
 #include "core/engines/still_engine.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/integrators/scheme.h"
 
@@ -19,6 +20,7 @@ StillEngine::StillEngine(Engine& of, const Preset& preset, const Lattice& lattic
       name_(of.name()) {
   of.read(state_, tears);
   of.read_raw(raw_, tears);
+  assert(state_.x.x.size() == std::size_t(lattice.size()) && raw_.v.z.size() == std::size_t(lattice.size()));
   x_.resize(lattice.rows, stride_);
   const Array<double>* from[] = {&state_.x.x, &state_.x.y, &state_.x.z};
   for (int i = 0; i < lattice.rows; ++i)
@@ -39,6 +41,7 @@ PositionView StillEngine::positions() const {
 }
 
 StoredParticle StillEngine::stored(int i, int j) const {
+  assert(lattice_.contains(i, j));
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
   const VectorField<double>& from = lag_ == 0 ? state_.v : raw_.v;
   const glm::dvec3 v(from.x[p], from.y[p], from.z[p]);

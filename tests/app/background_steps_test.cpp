@@ -65,6 +65,21 @@ TEST_CASE("while a step is being made, the session shows the cloth before it, an
   CHECK(same(session.simulation->read(), alone.read()));
 }
 
+TEST_CASE("dt that becomes automatic while a step is being made is watched once the ledger is kept") {
+  Preset preset = long_steps(96);
+  preset.dt = AutoStep::longest;
+  Under under(preset);
+  Session& session = under.desk.session;
+  toggle_auto_dt(session);
+  REQUIRE(session.auto_dt.has_value());
+  REQUIRE(session.background_steps.busy());
+  while (session.background_steps.busy()) session.update(frame, {});
+  CHECK(session.simulation->steps() >= 1);
+  CHECK(session.preset().dt == AutoStep::longest);
+  session.update(frame, {});
+  CHECK((session.background_steps.busy() || session.simulation->ledger().has_value()));
+}
+
 TEST_CASE("a step whose equations were not solved is said once, with what is left") {
   Preset preset = long_steps(24);
   preset.iterations = 1;

@@ -4,8 +4,10 @@
 #include <atomic>
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <thread>
 
+#include "app/session/document.h"
 #include "app/session/session.h"
 #include "core/model/effect.h"
 #include "tests/support/devices.h"
@@ -314,6 +316,19 @@ TEST_CASE("a large experiment is there again after a lab, at once, and what was 
   CHECK(session.history.next(true)->constants == preset);
   wait(session);
   CHECK(session.preset() == finer);
+}
+
+TEST_CASE("a cloth that is built but cannot be taken ends with a message, and nothing stays in work") {
+  Session session = session_with(test::cloth(20, 20));
+  session.show_texture = [](const std::string&) -> std::optional<std::string> {
+    throw std::runtime_error("no texture");
+  };
+  const Preset next = test::cloth(large, large);
+  reopen_document(session, next, {next, "next", {}});
+  REQUIRE(session.rebuild.busy());
+  wait(session);
+  REQUIRE_FALSE(session.messages.list().empty());
+  CHECK(session.messages.list().back().severity == Message::Severity::error);
 }
 
 TEST_CASE("a change is carried over to other constants alone") {

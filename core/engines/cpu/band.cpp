@@ -27,6 +27,7 @@ int rows_of_block(std::size_t bytes_of_row) {
 template <class R, unsigned Present>
 Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end)
     : cloth_(cloth), block_(rows_of_block(3 * std::size_t(cloth.stride) * sizeof(R))) {
+  assert(block_ >= 2 && std::has_single_bit(unsigned(block_)));  // a ring's rows are found by a mask
   ring_.resize(2 * block_, cloth.stride, ring_lead);
   // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.
   if (begin > 0) head_.x.resize(6, cloth.stride), head_.v.resize(6, cloth.stride);
@@ -57,6 +58,7 @@ std::size_t Band<R, Present>::bytes() const {
 /// Rows first … first + count - 1 of the sweep's vectors to rows at … of a halo.
 template <class R, unsigned Present>
 void Band<R, Present>::copy_rows(const ResolvedSweep& s, int first, int count, Halo& halo, int at) {
+  assert(first >= 0 && at >= 0 && count > 0 && at + count <= 4);
   const Field &x = cloth_.vector(s.position), &v = cloth_.vector(s.velocity);
   std::copy_n(x.row(first), count * x.pitch(), halo.x.row(at));
   std::copy_n(v.row(first), count * v.pitch(), halo.v.row(at));
@@ -70,6 +72,7 @@ void Band<R, Present>::copy_halo(const ResolvedSweep& s) {
 
 template <class R, unsigned Present>
 PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
+  assert(cloth_.dt > 0 && cloth_.preset.m > 0);
   PairTask<R> t{};
   t.stride = cloth_.stride;
   t.columns = cloth_.lattice.columns;
@@ -136,6 +139,7 @@ template <class R, unsigned Present>
 void Band<R, Present>::read_hand(int i) {
   if (cloth_.held.particle < 0 || cloth_.held.particle / cloth_.lattice.columns != i) return;
   const int j = cloth_.held.particle % cloth_.lattice.columns;
+  assert(cloth_.fixed[std::size_t(cloth_.held.particle)] != 0);
   has_hand_ = true;
   hand_force_ = {force_row(i, 0)[j], force_row(i, 1)[j], force_row(i, 2)[j]};
 }
@@ -146,6 +150,8 @@ template <class R, unsigned Present>
 void Band<R, Present>::fix_row(int i) {
   if constexpr (has(part::hand)) read_hand(i);
   if constexpr (!has(part::pins)) return;
+  assert(cloth_.fixed_begin[i] <= cloth_.fixed_begin[i + 1] &&
+         std::size_t(cloth_.fixed_begin[i + 1]) <= cloth_.fixed_columns.size());
   for (int n = cloth_.fixed_begin[i]; n < cloth_.fixed_begin[i + 1]; ++n)
     for (int c = 0; c < 3; ++c) force_row(i, c)[cloth_.fixed_columns[n]] = R(0);
 }
@@ -156,7 +162,7 @@ void Band<R, Present>::begin_sums(const std::vector<ResolvedSweep::ResolvedAssig
   assert(assignments.size() <= std::size_t(RowSums<R>::most));
   sums_.count = 0;
   for (const auto& assignment : assignments) {
-    assert(assignment.terms.size() <= std::size_t(RowSum<R>::most_terms));
+    assert(!assignment.terms.empty() && assignment.terms.size() <= std::size_t(RowSum<R>::most_terms));
     RowSum<R>& sum = sums_.sum[sums_.count++];
     sum.target = cloth_.row(assignment.target, 0, 0), sum.terms = 0;
     for (const auto [vector, factor] : assignment.terms) {
@@ -235,6 +241,7 @@ void Band<R, Present>::collide_row(int i) {
       contacts_.push_back({i * cloth_.lattice.columns + j, freely.x - glm::dvec3(*x[0], *x[1], *x[2]),
                            freely.v - glm::dvec3(*v[0], *v[1], *v[2]) / scale});
   }
+  assert(!has(part::pins) || next_fixed == cloth_.fixed_begin[i + 1]);  // all were met, in order
 }
 
 /// What the pair sweep does itself where it makes the update: keeps the largest way.
@@ -247,6 +254,8 @@ void Band<R, Present>::watch_rows(int i, int count) {
 
 template <class R, unsigned Present>
 void Band<R, Present>::measure(const ResolvedEstimate& estimate, const ResolvedSweep& s, int i) {
+  assert(estimate.shares.size() <= std::size_t(RowEstimate<R>::most_terms));
+  assert(cloth_.measures.size() == std::size_t(cloth_.lattice.rows));
   RowEstimate<R> row{.x = cloth_.row(s.position, i, 0), .dt = R(cloth_.dt)};
   for (const auto& share : estimate.shares) {
     const int n = row.terms++;
@@ -292,6 +301,7 @@ void Band<R, Present>::sweep_rows(int i, int count) {
   const ResolvedSweep& s = *pass_.sweep;
   const bool last = pass_.last, bodies = pass_.bodies, assigns = pass_.assigns;
   const int end = i + count;
+  assert(i >= begin_ && end <= end_ && count > 0 && count <= block_);
   if (bodies || (last && assigns)) save_rows(i, count);
   for (int pair = i; pair < end; pair += 2) {
     point_at_pair(pass_.task, s, *pass_.tears, pair);
@@ -332,6 +342,7 @@ void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignmen
 
 template <class R, unsigned Present>
 void Band<R, Present>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& out, bool of_step) {
+  assert(out.pitch() == ring_.pitch());
   PairTask<R> t = task(s);
   const R per_mass = R(1 / cloth_.preset.m);
   const glm::dvec3 hand_force = hand_force_;  // a look must not change what the last step measured

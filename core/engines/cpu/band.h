@@ -75,13 +75,22 @@ struct Cloth {
   std::vector<std::uint8_t> fixed;  ///< 1 at i·columns + j if pinned or held; empty if none is
   Held held;
 
-  Field& vector(int number) { return vectors[std::size_t(number)]; }
-  const Field& vector(int number) const { return vectors[std::size_t(number)]; }
-  R* row(int vector, int i, int component) { return vectors[std::size_t(vector)].row(i, component); }
-  const R* row(int vector, int i, int component) const { return vectors[std::size_t(vector)].row(i, component); }
+  Field& vector(int number) {
+    assert(number >= 0 && std::size_t(number) < vectors.size());
+    return vectors[std::size_t(number)];
+  }
+  const Field& vector(int number) const {
+    assert(number >= 0 && std::size_t(number) < vectors.size());
+    return vectors[std::size_t(number)];
+  }
+  R* row(int number, int i, int component) { return vector(number).row(i, component); }
+  const R* row(int number, int i, int component) const { return vector(number).row(i, component); }
   std::vector<RowMeasures> measures;  ///< of each row, from the last sweep with an estimate
   double velocity_scale() const { return keeps_displacement ? preset.dt : 1; }
-  bool has_fixed(int i) const { return fixed_begin[std::size_t(i)] < fixed_begin[std::size_t(i) + 1]; }
+  bool has_fixed(int i) const {
+    assert(i >= 0 && std::size_t(i) + 1 < fixed_begin.size());
+    return fixed_begin[std::size_t(i)] < fixed_begin[std::size_t(i) + 1];
+  }
 };
 
 /// `Present`: the parts of the engine that are compiled in (parts.h).

@@ -1,6 +1,7 @@
 #include "core/engines/cpu/block_descent.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,13 @@ namespace {
 // In place of a piece: the particle is fixed, or its piece is not known yet.
 constexpr int of_fixed = -1, of_none = -2;
 
+static_assert(links_of_a_particle == 2 * int(directions.size()));
+/// No spring joins two particles of one color.
+constexpr bool colors_differ(int colors) {
+  return std::none_of(directions.begin(), directions.end(),
+                      [colors](const Direction& to) { return (to.di + 2 * to.dj) % colors == 0; });
+}
+static_assert(colors_differ(BlockDescent<float>::colors));
 /// Of a BlockRow's link in that direction.
 int rest_of(const Direction& to) {
   return to.bending ? 2 : to.di != 0 && to.dj != 0 ? 1 : 0;
@@ -20,6 +28,8 @@ int rest_of(const Direction& to) {
 template <class R>
 void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed) {
   const Preset& p = cloth.preset;
+  assert(h > 0 && p.m > 0 && p.L > 0);
+  assert(rows_ == 0 || (rows_ == cloth.lattice.rows && columns_ == cloth.lattice.columns));
   constants_ = {h * h * p.k_s / p.m, h * h * p.k_b / p.m, h * p.k_d / p.m, p.L};
   h_ = h, gravity_ = p.g;
   if (rows_ == 0) {
@@ -52,6 +62,7 @@ void BlockDescent<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
 
 template <class R>
 void BlockDescent<R>::begin(const Field& c_x, const Field& c_v, int begin, int end) {
+  assert(pieces_known_ && begin >= 0 && begin <= end && end <= rows_);
   for (int i = begin; i < end; ++i)
     for (int c = 0; c < 3; ++c)
       for (int j = 0; j < columns_; ++j) {
@@ -90,6 +101,7 @@ void BlockDescent<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
     }
     pieces_.back().particles = double(found_.size()), pieces_.back().held_end = held_.size();
   }
+  assert(std::find(piece_of_.begin(), piece_of_.end(), of_none) == piece_of_.end());
 }
 
 template <class R>
@@ -110,6 +122,7 @@ double BlockDescent<R>::pull_down(const Held& spring, double fallen) const {
 
 template <class R>
 double BlockDescent<R>::slope(const Piece& piece, double share) const {
+  assert(piece.particles >= 1 && gravity_ != 0 && share >= 0 && share <= 1);
   const double way = h_ * h_ * gravity_;
   double held = 0;
   for (std::size_t n = piece.held_begin; n < piece.held_end; ++n) held += pull_down(held_[n], share * way);
@@ -136,8 +149,10 @@ template <class R>
 void BlockDescent<R>::fall(int begin, int end) {
   for (int i = begin; i < end; ++i)
     for (int j = 0; j < columns_; ++j)
-      if (const int piece = piece_of_[std::size_t(i) * std::size_t(columns_) + std::size_t(j)]; piece != of_fixed)
+      if (const int piece = piece_of_[std::size_t(i) * std::size_t(columns_) + std::size_t(j)]; piece != of_fixed) {
+        assert(piece >= 0 && std::size_t(piece) < pieces_.size());
         q_[at(i, 1, j)] -= R(pieces_[std::size_t(piece)].falls * h_ * h_ * gravity_);
+      }
 }
 
 template <class R>
@@ -157,6 +172,7 @@ void BlockDescent<R>::accelerate(const Field& c_v, const Field& a, int begin, in
 /// The particles of a row whose columns leave that remainder.
 template <class R>
 void BlockDescent<R>::descend(int i, int part) {
+  assert(i >= 0 && i < rows_ && part >= 0 && part < colors);
   BlockRow<R> row;
   row.count = (columns_ - part + colors - 1) / colors;
   if (row.count <= 0) return;
@@ -193,6 +209,7 @@ void BlockDescent<R>::write_positions(Field& x, int begin, int end) const {
 
 template <class R>
 void BlockDescent<R>::write_velocities(Field& v, int begin, int end) const {
+  assert(h_ > 0);
   const R per_h = R(1 / h_);
   for (int i = begin; i < end; ++i)
     for (int c = 0; c < 3; ++c)

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <cassert>
 #include <limits>
 #include <numbers>
 
@@ -148,6 +149,7 @@ class Blocks {
 template <class R>
 void descend(const BlockRow<R>& row) {
   using D = hn::ScalableTag<R>;
+  assert(row.count > 0 && row.stride >= row.count);
   const Blocks<D> blocks(row);
   for (int n = 0; n < row.count; n += int(hn::MaxLanes(D()))) blocks.descend(n);
 }

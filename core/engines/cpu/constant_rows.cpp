@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <cassert>
+
 #include "core/cloth/lattice.h"
 #include "core/engines/cpu/constant_solve.h"
 #include "core/simd/simd-inl.h"
@@ -13,6 +15,7 @@ using namespace tyglab::simd::HWY_NAMESPACE;
 
 template <bool bends, class R>
 void iterate(const ConstantRow<R>& t) {
+  assert(t.columns > 0 && t.columns <= t.stride && t.mask_stride > t.stride);
   using D = hn::ScalableTag<R>;
   using L = Lanes<D>;
   constexpr int lanes = int(hn::MaxLanes(D())), stretching = 2 * stretch_directions;

@@ -1,6 +1,7 @@
 #include "core/engines/cpu/constant_solve.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tyglab::cpu {
@@ -8,6 +9,8 @@ namespace {
 
 constexpr int ghost_rows = 2;  // above and below, to which no spring reaches
 
+static_assert(std::all_of(directions.begin(), directions.end(),
+                          [](const Direction& to) { return to.di <= ghost_rows; }));
 template <class R>
 constexpr std::ptrdiff_t mask_stride(int stride) {
   return stride + widest_vector / std::ptrdiff_t(sizeof(R));  // what lies left of a row's first column is 0
@@ -34,6 +37,8 @@ void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
 template <class R>
 void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance,
                                 bool changed) {
+  assert(weights.stretch >= 0 && weights.bending >= 0 && tolerance > 0 && tolerance < 1);
+  assert(rows_ == 0 || (rows_ == cloth.lattice.rows && stride_ == cloth.stride));
   weight_ = cloth.preset.kind == Kind::one_weight ? 1 + weights.stretch : 0;
   if (weight_ != 0) return;
   if (rows_ == 0) {
@@ -58,6 +63,7 @@ void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, Sprin
   const double rate = std::acosh((kappa_ + 1) / (kappa_ - 1));
   products_ = int(std::clamp(std::ceil(std::acosh(1 / std::sqrt(tolerance)) / rate), 1.0, double(most_products)));
   left_ = 1 / std::pow(std::cosh(products_ * rate), 2);
+  assert(left_ >= 0 && left_ <= 1);
   if (!products_suffice()) find_pieces(cloth, tears);
 }
 
@@ -156,6 +162,8 @@ void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<
     return;
   }
   if (products_ == 0) return;
+  assert(begin >= 0 && begin <= end && end <= rows_);
+  assert(!stop || (begin == 0 && end == rows_));  // who stops is alone
   // a_ and b_ change places after each product: by one thread, between two barriers.
   const auto exchange = [&] {
     barrier();

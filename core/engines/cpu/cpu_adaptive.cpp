@@ -5,6 +5,7 @@
 // decides (core/integrators/step_control.h, plain numbers), and only an accepted step writes x and v, in the pass that
 // also handles bodies and the divergence budget.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -30,8 +31,10 @@ void CpuEngine<R, Present>::resolve_estimate() {
   for (const auto* terms : {&from.x, &from.v, &from.stage_x, &from.stage_v, &from.stage_a})
     for (const Term& term : *terms)
       if (share_of(estimate_, term.vector) == nullptr) estimate_.shares.push_back({.vector = term.vector});
+  assert(estimate_.shares.size() <= std::size_t(RowEstimate<R>::most_terms));
   scale_estimate();
   auto &first = sweeps_.front().assignments, &last = sweeps_.back().assignments;
+  assert(!first.empty() && !last.empty());
   next_stage_.assign(first.begin() + 1, first.end());
   accepting_.assign(last.begin() + 1, last.end());
   last.resize(1);
@@ -59,8 +62,10 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::scale_estimate() {
   using Share = ResolvedEstimate::Share;
   const auto scale = [&](const std::vector<Term>& terms, double Share::*factor) {
-    for (const Term& term : terms)
+    for (const Term& term : terms) {
+      assert(share_of(estimate_, term.vector) != nullptr);
       share_of(estimate_, term.vector)->*factor = term.factor * power(cloth_.dt, term.dt_power);
+    }
   };
   const Estimate& from = *scheme_->estimate;
   scale(from.x, &Share::error_x), scale(from.v, &Share::error_v);
@@ -71,16 +76,19 @@ void CpuEngine<R, Present>::scale_estimate() {
 /// not at all.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::change_dt(double dt) {
+  assert(dt > 0);
   cloth_.dt = dt;
   if (is_stabilized(*scheme_)) {
     sweeps_.swap(tables_[table_]);
     table_ = std::min(table_for(*scheme_, spectrum_, dt), tables_.size() - 1);
     sweeps_.swap(tables_[table_]);
   }
+  assert(table().size() == sweeps_.size());
   for (std::size_t n = 0; n < sweeps_.size(); ++n)
     for (std::size_t k = 0; k < sweeps_[n].assignments.size(); ++k)
       scale(table()[n].assignments[k], sweeps_[n].assignments[k]);
   const auto& first = sweeps_.front().assignments;
+  assert(next_stage_.size() + 1 == first.size());
   std::copy(first.begin() + 1, first.end(), next_stage_.begin());
   scale_estimate();
 }
@@ -88,6 +96,7 @@ void CpuEngine<R, Present>::change_dt(double dt) {
 /// The first step's length, by Hairer's rule; the first a is known then.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_control(const Tears& tears) {
+  assert(sweeps_.size() >= 2);
   Field &a = cloth_.vector(sweeps_.front().assignments.front().target),
         &changed = cloth_.vector(sweeps_[1].assignments.front().target), &x = cloth_.vector(sweeps_[1].position),
         &v = cloth_.vector(sweeps_[1].velocity);
@@ -116,6 +125,7 @@ void CpuEngine<R, Present>::begin_control(const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::take_next_dt() {
+  assert(left_of_dt_ > 0 && left_of_dt_ <= cloth_.preset.dt);
   if (const double next = control_.next(left_of_dt_, cloth_.preset.dt); next != cloth_.dt) change_dt(next);
 }
 
@@ -148,6 +158,7 @@ void CpuEngine<R, Present>::try_inner_step(int number, const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::judge_inner_step() {
+  assert(cloth_.measures.size() == std::size_t(cloth_.lattice.rows));
   TriedStep tried{.tolerance = cloth_.preset.tolerance};
   StageProducts products;
   double farthest = 0;
@@ -170,6 +181,7 @@ void CpuEngine<R, Present>::add_inner_contacts() {
   inner_contact_of_.resize(std::size_t(cloth_.lattice.size()), -1);
   for (const auto& band : bands())
     for (const Contact& contact : band->contacts()) {
+      assert(contact.particle >= 0 && contact.particle < cloth_.lattice.size());
       int& place = inner_contact_of_[std::size_t(contact.particle)];
       if (place < 0) {
         place = int(inner_contacts_.size());
@@ -183,6 +195,7 @@ void CpuEngine<R, Present>::add_inner_contacts() {
 /// What the end of a step asks for; then the next inner step, or the end of dt.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
+  assert(accepted_ && !abandoned_);
   const int torn = tears.torn_count();
   if (cloth_.notes_contacts) add_inner_contacts();
   const BatchEnd end = guard_.judge(*this, 1, tears, fault).end;

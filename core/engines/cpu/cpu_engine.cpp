@@ -24,6 +24,7 @@ void classify(ResolvedSweep& sweep, const Scheme& scheme) {
     return;
   Combination now[2] = {{1, 0, 0}, {0, 1, 0}};
   for (const auto& assignment : sweep.assignments) {
+    assert(assignment.target == vector_x || assignment.target == vector_v);
     Combination sum{0, 0, 0};
     for (const auto [vector, factor] : assignment.terms) {
       const Combination part = vector == acceleration ? Combination{0, 0, 1} : now[vector];
@@ -66,6 +67,7 @@ CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, i
 
 template <class R, unsigned Present>
 int CpuEngine<R, Present>::band_begin(int number) const {
+  assert(number >= 0 && number <= team_->size());
   const int rows = cloth_.lattice.rows, bands = team_->size();
   return number == bands ? rows : int(std::int64_t(rows) * number / bands) / 2 * 2;
 }
@@ -93,6 +95,7 @@ ResolvedSweep::ResolvedAssignment CpuEngine<R, Present>::resolve(const Assignmen
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const {
+  assert(out.terms.size() == assignment.terms.size() && cloth_.dt > 0 && cloth_.preset.m > 0);
   for (std::size_t n = 0; n < out.terms.size(); ++n) {
     const Term& term = assignment.terms[n];
     const double factor = term.factor * power(cloth_.dt, term.dt_power);
@@ -108,6 +111,7 @@ void CpuEngine<R, Present>::resolve() {
   cloth_.vectors.resize(std::size_t(scheme_->vectors));
   // What a method that chooses its own steps keeps beside x and v follows from them.
   backup_.resize(chooses_steps(*scheme_) ? 2 : cloth_.vectors.size());
+  assert(!sweeps_.empty() && backup_.size() <= cloth_.vectors.size());
   for (auto* fields : {&cloth_.vectors, &backup_}) {
     int lead = 0;
     for (auto& field : *fields) {
@@ -158,6 +162,7 @@ void CpuEngine<R, Present>::exchange(const Preset& preset) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_dt(double dt) {
+  assert(dt > 0);
   cloth_.dt = dt;
   sweeps_.clear();
   table_ = 0;
@@ -168,6 +173,7 @@ void CpuEngine<R, Present>::set_dt(double dt) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::resize_team(int size) {
   if (size == team_->size()) return;
+  assert(size >= 1 && std::size_t(size) <= bands_.size());
   team_->resize(size);
   for (int n = 0; n < size; ++n) bands_[std::size_t(n)]->cover(band_begin(n), band_begin(n + 1));
   wave_steps_ = steps_of_wave(size);
@@ -177,6 +183,7 @@ void CpuEngine<R, Present>::resize_team(int size) {
 /// threads would otherwise have to wait for each other in every step.
 template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_of_wave(int threads) const {
+  assert(threads >= 1 && threads <= team_->capacity() && !sweeps_.empty());
   constexpr int most = 8;             // sweeps a thread: their rows must lie in its cache
   constexpr int rows_per_sweep = 16;  // the more sweeps, the longer the last thread waits for the first row
   constexpr std::size_t own_cache = 1 << 20;
@@ -272,6 +279,7 @@ void CpuEngine<R, Present>::synchronize(const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::add_lag(double lag, double scale) {
   const std::span<R> v = cloth_.vector(vector_v).all(), a = acceleration_.all();
+  assert(scale > 0 && a.size() == v.size());
   for (std::size_t n = 0; n < v.size(); ++n) v[n] = R(double(v[n]) / scale + lag * double(a[n]));  // as read() has them
   set_synchronized(true);
   write_fixed_velocities();
@@ -307,6 +315,8 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   std::vector<int>& all = all_fixed_;
   const bool any = !pinned.empty() || held.particle >= 0;
   const std::size_t particles = std::size_t(cloth_.lattice.size());
+  assert(pinned.empty() || (pinned.front() >= 0 && std::size_t(pinned.back()) < particles));
+  assert(held.particle < cloth_.lattice.size());
   // All the memory first, so that nothing has changed where it fails.
   pinned_.reserve(pinned.size()), all.reserve(pinned.size() + 1), cloth_.fixed_columns.reserve(pinned.size() + 1);
   if (any) cloth_.fixed.reserve(particles + widest_vector), guards_.reserve(particles);
@@ -327,6 +337,7 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   }
   write_fixed_velocities();
   for (std::size_t i = 1; i < cloth_.fixed_begin.size(); ++i) cloth_.fixed_begin[i] += cloth_.fixed_begin[i - 1];
+  assert(std::size_t(cloth_.fixed_begin.back()) == cloth_.fixed_columns.size());
   cloth_.fixed.assign(all.empty() ? 0 : particles + widest_vector, 0);
   for (const int p : all) cloth_.fixed[p] = 1;
   guards_.assign(all.empty() ? 0 : particles, 0);
@@ -406,6 +417,7 @@ void CpuEngine<R, Present>::read_stored(State& state) const {
   const std::size_t n = std::size_t(cloth_.lattice.size());
   // The last array that gets its memory: where an earlier call ran out of it, others may have theirs.
   if (state.v.z.size() != n) state.x.resize(n), state.v.resize(n);
+  assert(state.x.x.size() == n && state.v.x.size() == n && state.x.z.size() == n);
   const auto copy = [&](int vector, VectorField<double>& to, double divisor) {
     Array<double>* components[] = {&to.x, &to.y, &to.z};
     for (int c = 0; c < 3; ++c)
@@ -418,6 +430,7 @@ void CpuEngine<R, Present>::read_stored(State& state) const {
 
 template <class R, unsigned Present>
 std::shared_ptr<const HeldMotion> CpuEngine<R, Present>::held_motion() const {
+  assert(backup_.size() <= cloth_.vectors.size());
   auto held = std::make_shared<CpuMotion<R>>();
   held->method = scheme_->name, held->synchronized = synchronized_;
   held->vectors.assign(cloth_.vectors.begin(), cloth_.vectors.begin() + std::ptrdiff_t(backup_.size()));

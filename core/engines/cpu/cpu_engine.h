@@ -24,6 +24,7 @@
 // backup and makes the steps one by one. The bits are identical either way (tests/unit/waves_test.cpp).
 #pragma once
 
+#include <cassert>
 #include <functional>
 #include <memory>
 #include <span>
@@ -188,6 +189,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
 
   double tear_row(Tears& tears, int direction, int i);
   bool guarded(int i, int j) const {
+    assert(cloth_.lattice.contains(i, j));
     return !guards_.empty() && guards_[std::size_t(i) * cloth_.lattice.columns + j] != 0;
   }
   StateView<R> view() const;

@@ -1,5 +1,7 @@
 // Implicit stages: one thread leads solvers that run to convergence; all threads share methods in which each particle
 // solves for itself.
+#include <cassert>
+
 #include "core/engines/cpu/cpu_engine.h"
 
 namespace tyglab::cpu {
@@ -24,6 +26,7 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
+  assert(&sweep >= sweeps_.data() && &sweep < sweeps_.data() + sweeps_.size());
   for (const auto& band : bands()) band->assign(sweep.before, false);
   const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
   const bool solved = solver_.solve(
@@ -48,6 +51,7 @@ int CpuEngine<R, Present>::most_passes() const {
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, const Tears& tears) {
   const int begin = band_begin(number), end = band_begin(number + 1), passes = most_passes();
+  assert(passes >= 1 && sweep.solve_dt > 0);
   Field &x = cloth_.vector(sweep.position), &v = cloth_.vector(sweep.velocity);
   if (number == 0) {
     solver_.begin_stage(cloth_, sweep.position, sweep.velocity);
@@ -80,6 +84,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
 /// step was stopped.
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears) {
+  assert(pass >= 0 && pass < most_passes());
   const int begin = band_begin(number), end = band_begin(number + 1);
   const bool blows = (cloth_.features & wind) != 0;
   if (blows) {

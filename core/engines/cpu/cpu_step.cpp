@@ -1,5 +1,6 @@
 // Steps: bands side by side or in waves, then the work on the whole cloth: tearing and the search for faults.
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -19,6 +20,7 @@ StateView<R> CpuEngine<R, Present>::view() const {
 /// Breaks what is overloaded, and says by how much any other spring may still grow, m.
 template <class R, unsigned Present>
 double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
+  assert(cloth_.preset.k_s > 0 && cloth_.preset.F_max > 0);
   double slack = std::numeric_limits<double>::infinity();
   for (int d = 0; d < stretch_directions; ++d) {
     const double longest = directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / cloth_.preset.k_s;
@@ -32,6 +34,7 @@ double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
 /// that could break, m².
 template <class R, unsigned Present>
 double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
+  assert(d >= 0 && d < stretch_directions);
   const Direction& dir = directions[d];
   const double rest = dir.rest * cloth_.preset.L, longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
@@ -68,6 +71,7 @@ Motion CpuEngine<R, Present>::motion(const Tears& tears) {
 
 template <class R, unsigned Present>
 StepMeasures CpuEngine<R, Present>::measures(int step) {
+  assert(step >= 0 && step < std::max(together_, 1));
   std::span<const std::unique_ptr<Band<R, Present>>> judged = bands();
   if (together_ > 1) judged = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
   const bool hand = has(part::hand) && cloth_.held.particle >= 0, projected = projects(*scheme_);
@@ -139,6 +143,7 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
   const Preset& p = cloth_.preset;
+  assert(solves_damping(*scheme_));
   constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
   constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m, 0}, tolerance,
                     springs_changed(tears));
@@ -170,6 +175,7 @@ bool CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, cons
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read_hand(const Tears& tears) {
   const int i = cloth_.held.particle / cloth_.lattice.columns, j = cloth_.held.particle % cloth_.lattice.columns;
+  assert(cloth_.lattice.contains(i, j));
   constexpr int reach = 2;
   Neighborhood near(i, j);
   for (int ni = std::max(i - reach, 0); ni <= std::min(i + reach, cloth_.lattice.rows - 1); ++ni)
@@ -193,6 +199,7 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
   constexpr int behind = 2;  // rows: a pair reads the two rows below it, which the sweep before has left
   const int rows = cloth_.lattice.rows, sweeps = int(sweeps_.size()), all = steps * sweeps, threads = team_->size();
   const int first = all * number / threads, end = all * (number + 1) / threads;
+  assert(steps > 1 && std::size_t(all) <= waves_.size());
   for (int n = first; n < end; ++n) {
     const ResolvedSweep& sweep = sweeps_[std::size_t(n % sweeps)];
     waves_[std::size_t(n)]->reset_watch();
@@ -211,6 +218,7 @@ template <class R, unsigned Present>
 BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fault, bool waves) {
   made_ = {};
   abandoned_ = false;
+  assert(steps >= 1);
   const auto plan = [&] {
     int left = made_.end == BatchEnd::complete ? steps - made_.count : 0;
     if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = BatchEnd::stopped, left = 0;
@@ -220,6 +228,7 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
   const auto judge = [&] {
     const BatchResult judged = guard_.judge(*this, together_, tears, fault);
     made_ = {made_.count + judged.count, judged.end};
+    assert(judged.count <= together_ && made_.count <= steps);
   };
   plan();
   if (together_ > 0 && synchronized_ && !scheme_->start.empty()) start(tears);
@@ -246,6 +255,7 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
 /// How many of the `left` steps to make before the governor may change the number of threads.
 template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_of_run(int left) const {
+  assert(left >= 1);
   const int least = std::max(wave_steps_, 1);
   if (forced_threads_) return std::min(least, left);
   if (team_->capacity() == 1) return left;
@@ -271,6 +281,7 @@ BatchResult CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bo
     governor_.worked(chooses_steps(*scheme_) ? double(control_.counts().force_evaluations - evaluations) : made.count,
                      seconds);
   }
+  assert(all.count <= steps);
   return all;
 }
 
@@ -288,6 +299,7 @@ void CpuEngine<R, Present>::keep_backup() {
 /// Without waves, which would overwrite states that are to be examined.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
+  assert(steps >= 0 && !repeating_);
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
   set_synchronized(synchronized_backup_);

@@ -1,6 +1,7 @@
 #include "core/engines/cpu/global_step.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tyglab::cpu {
 namespace {
@@ -13,6 +14,7 @@ constexpr double most_work = 2e9;   // multiplications in a factorization: about
 template <class R>
 bool GlobalStep<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed, const Stop& stop) {
   const Preset& p = cloth.preset;
+  assert(h > 0 && p.m > 0);
   const SpringWeights weights{(h * h * p.k_s + h * p.k_d) / p.m, h * h * p.k_b / p.m};
   if (ready_ && !changed && weights == weights_) return true;
   changed = changed || !ready_;
@@ -54,6 +56,8 @@ bool GlobalStep<R>::factorize(const Cloth<R>& cloth, const Tears& tears, const S
 
 template <class R>
 int GlobalStep<R>::solve(Field& r, const Stop& stop) {
+  assert(ready_ && r.pitch() >= 3 * columns_);
+  assert(!factorized_ || sides_.size() == free_.size());
   if (!factorized_) {
     products_.solve(
         r, 0, rows_, [] {}, stop);

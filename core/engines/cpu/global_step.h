@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "core/engines/banded.h"
@@ -30,7 +31,10 @@ class GlobalStep {
  private:
   bool factorize(const Cloth<R>& cloth, const Tears& tears, const Stop& stop);
   /// The number of a particle, along the lattice's shorter side.
-  int number(int i, int j) const { return by_rows_ ? i * columns_ + j : j * rows_ + i; }
+  int number(int i, int j) const {
+    assert(i >= 0 && i < rows_ && j >= 0 && j < columns_);
+    return by_rows_ ? i * columns_ + j : j * rows_ + i;
+  }
 
   int rows_ = 0, columns_ = 0;
   bool by_rows_ = true, ready_ = false, factorized_ = false;

@@ -1,12 +1,19 @@
 #include "core/engines/cpu/implicit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 namespace tyglab::cpu {
 
 using namespace implicit;
+
+namespace {
+
+static_assert(springs_of_a_particle == int(directions.size()));
+
+}  // namespace
 
 template <class R>
 void ImplicitSolver<R>::resize() {
@@ -42,6 +49,7 @@ std::size_t ImplicitSolver<R>::bytes() const {
 
 template <class R>
 double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
+  assert(a.pitch() == b.pitch());
   double sum = 0;  // row by row in double: one sum of a large cloth in float would lose digits
   for (int i = 0; i < rows_; ++i) sum += dot_row(a.row(i), b.row(i), int(a.pitch()));
   return sum;
@@ -50,6 +58,7 @@ double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
 template <class R>
 bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
                               const Accelerations& accelerations, const Watch& watch, Way way) {
+  assert(dt > 0 && position != velocity);
   begin_stage(cloth, position, velocity);
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   // A mass on a spring is linear: Newton's method solves it in one step.
@@ -61,6 +70,7 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
 
 template <class R>
 void ImplicitSolver<R>::note_balance(const Balance& balance) {
+  assert(!(balance.residual < 0));
   solved_ = both(solved_, balance);
   if (late_ && !balance.found()) counts_.ended_early += !std::exchange(counted_, true);
 }
@@ -76,6 +86,7 @@ void ImplicitSolver<R>::begin_stage(Cloth<R>& cloth, int position, int velocity)
 template <class R>
 void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accelerations& accelerations,
                                       const Watch& watch, int passes) {
+  assert(task_.cloth != nullptr && dt > 0 && passes >= 0);
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   evaluate();
   counts_.newton += passes, counts_.force_evaluations += 2 * passes + 1;  // before and after each particle's step
@@ -146,10 +157,12 @@ double ImplicitSolver<R>::start_size() {
 template <class R>
 double ImplicitSolver<R>::evaluate() {
   const std::span<R> x = position().all(), v = velocity().all();
+  assert(x.size() == start_x_.all().size() && v.size() == start_v_.all().size());
   const R h = R(task_.dt);
   for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + h * v[n];
   (*task_.accelerations)(acceleration_);
   const std::span<R> r = residual_.all();
+  assert(r.size() == v.size() && acceleration_.all().size() == v.size());
   for (std::size_t n = 0; n < r.size(); ++n) r[n] = h * acceleration_.all()[n] - (v[n] - start_v_.all()[n]);
   return std::sqrt(inner(residual_, residual_));
 }
@@ -163,6 +176,8 @@ ImplicitStage::Step ImplicitSolver<R>::step() {
 template <class R>
 ImplicitStage::Trial ImplicitSolver<R>::try_part(double part) {
   const std::span<R> v = velocity().all();
+  assert(!(part < 0) && !(part > 1));
+  assert(before_.all().size() == v.size() && step_.all().size() == v.size());
   for (std::size_t n = 0; n < v.size(); ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
   const double norm = evaluate();
   return {norm, inner(residual_, step_)};
@@ -184,6 +199,7 @@ void ImplicitSolver<R>::linearize() {
 /// The springs of a row in one direction: their coefficients, and what they add to the blocks of both ends.
 template <class R>
 void ImplicitSolver<R>::linearize_row(int d, int i) {
+  assert(d >= 0 && d < springs_of_a_particle && i >= 0 && i < rows_);
   const Direction& to = directions[d];
   R* part = coefficients_.data() + i * coefficient_pitch(stride_) + d * spring_parts * stride_;
   std::fill_n(part, spring_parts * stride_, R(0));

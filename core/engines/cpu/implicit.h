@@ -3,6 +3,7 @@
 // the matrix is stored only for factorization.
 #pragma once
 
+#include <cassert>
 #include <functional>
 #include <utility>
 
@@ -76,7 +77,10 @@ class ImplicitSolver final : private implicit::EitherStage {
   Balance solve_stiff() override;
   Balance solve_quickly() override;
   void keep() override { kept_ = velocity(); }
-  void restore() override { velocity() = kept_, evaluate(), balance(); }
+  void restore() override {
+    assert(!kept_.empty());
+    velocity() = kept_, evaluate(), balance();
+  }
   bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
   bool out_of_time() override { return is_over(1); }
   StageLimit limit() override { return task_.watch->limit; }

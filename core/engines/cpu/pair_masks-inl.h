@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 
@@ -76,6 +77,7 @@ HWY_INLINE void mask_torn_triangles(const std::uint8_t* own, const std::uint8_t*
 /// Of row `row` (0, 1) of the pair, for the block at column j.
 template <class R, class D>
 HWY_INLINE Masks<D> masks_of(const PairTask<R>& t, int row, int j) {
+  assert((row == 0 || row == 1) && j >= 0 && j < t.columns);
   constexpr D d;
   const auto first = [&](int lanes) { return hn::FirstN(d, std::size_t(std::max(0, lanes))); };
   const int under = t.rows_below - row;

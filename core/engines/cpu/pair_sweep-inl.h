@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -66,6 +67,7 @@ class PairSweep {
         largest_(L::load(task.max_displacement)) {}
 
   HWY_INLINE void run() {
+    assert(columns_ > 0 && columns_ <= stride_ && t_.rows_below >= 0);
     int j = 0;
     Carries carries;
     if (t_.rows_below >= 3) {

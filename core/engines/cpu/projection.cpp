@@ -48,6 +48,7 @@ bool Projector<R>::place(const Cloth<R>& cloth, const Color& color, int i, Row& 
   const Direction& to = directions[std::size_t(color.direction)];
   const int columns = cloth.lattice.columns;
   row.stride = cloth.stride;
+  assert(i >= 0 && i < rows_);
   if (to.di == 0) {
     row.reach = to.dj;
     upper = lower = color.first;
@@ -70,6 +71,7 @@ bool Projector<R>::place(const Cloth<R>& cloth, const Color& color, int i, Row& 
 
 template <class R>
 void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int i, ProjectionRow<R>& row) {
+  assert(color.lambda >= 0 && color.lambda < lambdas);
   const Direction& to = directions[std::size_t(color.direction)];
   int upper = 0, lower = 0;
   if (!(row.compliance < softest) || !place(cloth, color, i, row, upper, lower)) return;
@@ -136,6 +138,8 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
     return true;
   }
   assert(end % 2 == 0 || end == rows_);
+  assert(rows_ == cloth.lattice.rows && stride_ == cloth.stride);
+  assert(cloth.dt > 0 && cloth.preset.m > 0 && cloth.preset.iterations >= 1);
   std::array<ProjectionRow<R>, directions.size()> of_direction;
   const Preset& p = cloth.preset;
   for (std::size_t d = 0; d < directions.size(); ++d) {
@@ -162,6 +166,7 @@ void Projector<R>::damp(Cloth<R>& cloth, int begin, int end, Team& team) {
   if (cloth.preset.k_d == 0) return;
   const double times = cloth.preset.k_d * cloth.dt / cloth.preset.m;  // of the decay of one particle: dt over it
   const Decay one_free = decay_over(times), both_free = decay_over(2 * times);
+  assert(one_free.lost >= 0 && both_free.lost >= one_free.lost && both_free.lost <= 1);
   if (cloth.preset.kind == Kind::one_weight) {
     if (begin == 0) cloth.row(vector_v, 0, 1)[0] *= R(one_free.kept);
     team.barrier();

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <type_traits>
 
@@ -279,6 +280,8 @@ HWY_INLINE void look_at_partners(DampingRow<R>& row) {
 
 template <bool masked, class R, class Operation, class Row>
 HWY_INLINE void through_row(const Row& row) {
+  assert(row.count > 0 && row.stride > 0 && row.reach >= 0 && row.reach <= 2);
+  assert(masked == (row.whole != nullptr) && masked == (row.free_a != nullptr) && masked == (row.free_b != nullptr));
   const Operation operation(row);
   if (row.reach == 0) return between_rows<masked, R>(operation, 0, row.count);
   Row partners = row;
@@ -291,6 +294,7 @@ HWY_INLINE void through_row(const Row& row) {
 
 template <bool masked, class R>
 void project(const ProjectionRow<R>& row) {
+  assert(row.rest > 0 && row.compliance >= 0);
   row.pushes ? through_row<masked, R, Projection<true, R>>(row) : through_row<masked, R, Projection<false, R>>(row);
 }
 template <bool masked, class R>

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <limits>
 
@@ -106,6 +107,7 @@ HWY_EXPORT(nanoseconds_float);
 HWY_EXPORT(nanoseconds_double);
 
 double register_limit_ns(Precision precision, int repeats) {
+  assert(repeats >= 1);
   double best = std::numeric_limits<double>::infinity();
   volatile double kept = 0;  // what the loop computes must be used
   for (int n = 0; n < repeats; ++n) {

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "core/engines/cpu/row_update.h"
@@ -52,6 +53,7 @@ class Sum {
 
 template <int terms, class R>
 void sum_of(const RowSum<R>& given, std::ptrdiff_t offset, const R* force, RowRun run) {
+  assert(run.rows > 0 && run.columns > 0 && run.columns <= run.stride);
   const Sum<terms, R> sum(given, offset, force);
   // Without gaps all are one.
   if (run.columns == run.stride) return sum.make(0, 3 * run.rows * run.stride);
@@ -61,6 +63,7 @@ void sum_of(const RowSum<R>& given, std::ptrdiff_t offset, const R* force, RowRu
 template <class R>
 void make_all(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, RowRun run) {
   static_assert(RowSum<R>::most_terms == 8);
+  assert(sums.count >= 0 && sums.count <= RowSums<R>::most);
   for (const RowSum<R>* s = sums.sum; s < sums.sum + sums.count; ++s) switch (s->terms) {
       case 1:
         sum_of<1>(*s, offset, force, run);
@@ -91,6 +94,7 @@ void make_all(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, Row
 
 template <class R>
 void watch(const R* x, const R* old, const R* v, R dt, RowRun run, R* largest) {
+  assert(run.rows > 0 && run.columns > 0 && run.columns <= run.stride);
   using D = hn::ScalableTag<R>;
   constexpr hn::RebindToUnsigned<D> du;
   constexpr int lanes = int(hn::MaxLanes(D()));
@@ -117,6 +121,7 @@ void watch(const R* x, const R* old, const R* v, R dt, RowRun run, R* largest) {
 
 template <class R>
 RowMeasures measure(const RowEstimate<R>& given, std::ptrdiff_t stride, int columns) {
+  assert(given.terms >= 0 && given.terms <= RowEstimate<R>::most_terms && columns <= stride);
   using D = hn::ScalableTag<R>;
   using L = Lanes<D>;
   constexpr hn::RebindToUnsigned<D> du;

@@ -46,6 +46,7 @@ void wait_for_change(const std::atomic<int>& value, int old) {
 }  // namespace
 
 void Progress::finished(int rows) {
+  assert(rows >= rows_.load(std::memory_order_relaxed));  // rows are never unfinished again
   rows_.store(rows, std::memory_order_release);
   wake_one(rows_);
 }
@@ -90,6 +91,7 @@ Team::~Team() {
 }
 
 void Team::start(int number) {
+  assert(number >= 1 && std::size_t(number) <= starts_.size());
   std::atomic<int>& runs = starts_[std::size_t(number) - 1].runs;
   ++runs;
   wake_one(runs);
@@ -106,6 +108,7 @@ void Team::serve(int number) {
 }
 
 void Team::work(int number) noexcept {
+  assert(number >= 0 && number < size_ && call_.function != nullptr);
   try {
     call_.function(call_.work, number);
   } catch (const Failed&) {
@@ -126,12 +129,14 @@ void Team::run(const Call& call) {
       throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again),
                               "The system gives this process no threads; use threads = 1");
   }
+  assert(size_ > 1 && working_ == 0 && waiting_ == 0 && !failed_);
   call_ = call;
   working_ = size_ - 1;
   const int turn = finished_.load();
   for (int n = 1; n < size_; ++n) start(n);
   work(0);
   wait_for_change(finished_, turn);
+  assert(working_ == 0);
   if (!failed_) return;
   failed_ = false, waiting_ = 0;
   std::rethrow_exception(std::exchange(fault_, nullptr));
@@ -142,6 +147,7 @@ void Team::barrier() {
   const int turn = passed_.load();
   // Only now: who fails later lets those pass who wait for this turn.
   if (failed_) throw Failed();
+  assert(waiting_ < size_);
   if (waiting_.fetch_add(1) + 1 == size_) {
     waiting_ = 0;
     passed_ = turn + 1;

@@ -25,12 +25,14 @@ ThreadGovernor::ThreadGovernor(int most, int first) {
   levels_.push_back({1, first_rest});
   std::reverse(levels_.begin(), levels_.end());
   std::size_t level = levels_.size() - 1;
+  assert(levels_.front().threads == 1 && levels_.back().threads == most);
   while (levels_[level].threads > first) --level;
   serve_at(level);
 }
 
 /// Without knowing what half as many would take.
 void ThreadGovernor::serve_at(std::size_t level) {
+  assert(level < levels_.size());
   level_ = level;
   reference_ = unknown;
   credit_ = first_credit;
@@ -43,6 +45,7 @@ double ThreadGovernor::run_seconds() const {
 }
 
 void ThreadGovernor::worked(double work, double seconds) {
+  assert(!(seconds < 0));
   if (levels_.size() == 1 || !(work > 0)) return;
   if (in_trial_)
     measure(work, seconds);
@@ -51,6 +54,7 @@ void ThreadGovernor::worked(double work, double seconds) {
 }
 
 void ThreadGovernor::begin_trial(std::size_t level) {
+  assert(level + 1 < levels_.size());  // the level above it comes next
   level_ = level;
   in_trial_ = true;
   reference_ = unknown;
@@ -59,6 +63,7 @@ void ThreadGovernor::begin_trial(std::size_t level) {
 }
 
 void ThreadGovernor::measure(double work, double seconds) {
+  assert(in_trial_ && work > 0);
   trial_seconds_ += seconds;
   sample_work_ += work, sample_seconds_ += seconds;
   if (sample_seconds_ < sample_seconds) return;
@@ -91,6 +96,7 @@ void ThreadGovernor::serve(double work, double seconds) {
 }
 
 void ThreadGovernor::let_go() {
+  assert(level_ > 0);
   rest_ = levels_[level_].rest;
   levels_[level_].rest = std::min(2 * rest_, longest_rest);
   serve_at(level_ - 1);

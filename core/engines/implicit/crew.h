@@ -1,6 +1,7 @@
 // The threads that solve a linear system together.
 #pragma once
 
+#include <cassert>
 #include <functional>
 
 namespace tyglab::implicit {
@@ -28,6 +29,7 @@ struct RowRange {
 };
 /// Of `rows` rows, the share of a thread. Every thread of a crew has one, though it may be empty.
 inline RowRange share_of(int rows, int number, int size) {
+  assert(rows >= 0 && number >= 0 && number < size);
   return {rows * number / size, rows * (number + 1) / size};
 }
 

@@ -1,6 +1,7 @@
 #include "core/engines/implicit/interior_point.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -109,6 +110,8 @@ template <class R>
 BarrierRow InteriorPoint<R>::row(int i) {
   const int rows = std::min(lattice_.rows, 3);
   const int pattern = torn_ ? i : std::max(0, i - (lattice_.rows - rows));
+  assert(i >= 0 && i < lattice_.rows);
+  assert((pattern + 1) * std::ptrdiff_t(directions.size()) * stride_ <= std::ptrdiff_t(whole_.size()));
   const std::ptrdiff_t at = std::ptrdiff_t(i) * stretch_directions * stride_;
   return {task_->constants,
           whole_.data() + std::ptrdiff_t(pattern) * std::ptrdiff_t(directions.size()) * stride_,
@@ -124,6 +127,7 @@ BarrierRow InteriorPoint<R>::row(int i) {
 
 template <class R>
 void InteriorPoint<R>::begin() {
+  assert(task_->fixed.empty() || task_->fixed.size() >= std::size_t(lattice_.size()));
   find_whole_springs();
   size_ = 0;
   for_rows([&](int i) {
@@ -136,6 +140,7 @@ void InteriorPoint<R>::begin() {
   // About a hundredth of a spring's length under a third of the tension of a row of all particles.
   const double weight = std::max(task_->gravity, 1e-6 * task_->constants.L) * std::sqrt(double(lattice_.size()));
   const double mu = 0.3 * weight * 0.01 * task_->constants.L;
+  assert(mu > 0);
   for_rows([&](int i) { begin_tensions(row(i), mu); });
 }
 
@@ -175,6 +180,7 @@ template <class R>
 template <class Work>
 double InteriorPoint<R>::together(const Work& work) {
   const int size = task_->crew.size();
+  assert(size >= 1);
   multigrid_.share(task_->crew, size, task_->stops);
   if (task_->stops()) return 0;
   const int threads = multigrid_.threads();
@@ -236,6 +242,7 @@ void InteriorPoint<R>::make_product(int number, const RowField<R>& z, double kee
   const auto add = [&](int i) { add_scaled_row(z.row(i), keep, p_.row(i), count); };
   RowRange later = own;
   if (multigrid_.threads() > 1) {
+    assert(own.end - own.begin >= 2 * rows_of_product);  // or rows would be added twice
     for (int n = 0; n < rows_of_product; ++n) add(own.begin + n), add(own.end - 1 - n);
     later = {own.begin + rows_of_product, own.end - rows_of_product};
     task_->crew.barrier();
@@ -308,6 +315,7 @@ BarrierStep InteriorPoint<R>::find_step(bool corrects, double mu) {
 
 template <class R>
 void InteriorPoint<R>::advance(double primal, double dual) {
+  assert(!(primal < 0) && !(primal > 1) && !(dual < 0) && !(dual > 1));
   const auto add = [](std::span<double> to, std::span<const double> step, double part) {
     for (std::size_t n = 0; n < to.size(); ++n) to[n] += part * step[n];
   };
@@ -319,6 +327,8 @@ void InteriorPoint<R>::advance(double primal, double dual) {
 template <class R>
 Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   task_ = &task, counts_ = &counts;
+  assert(task.tears != nullptr && task.tolerance > 0);
+  assert(task.constants.L > 0 && task.constants.stretch > 0 && task.constants.bend >= 0);
   begin();
   best_balance_ = {false, std::numeric_limits<double>::infinity()};
   const auto part_of = [](double most) { return std::min(1.0, to_border / most); };
@@ -327,6 +337,7 @@ Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   for (int n = 0;; ++n) {
     const double products = linearize(), mu = products / std::max(springs_, 1.0);
     if (task.stops()) return {};
+    assert(!(mu < 0));  // tensions and slacks stay positive
     if (residual_ < least) least = residual_, best_balance_ = {false, residual_ / force_}, best_ = x_;
     if (n == 0) first = residual_;
     if (residual_ <= allowed()) return {true, residual_ / force_};

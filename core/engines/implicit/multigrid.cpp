@@ -1,6 +1,7 @@
 #include "core/engines/implicit/multigrid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/engines/implicit/stiffness.h"
@@ -11,6 +12,7 @@ namespace {
 constexpr int coarsest = 3;  // rows or columns that are not made fewer
 
 int coarser(int n) {
+  assert(n >= 1);
   return n <= coarsest ? n : n / 2 + 1;
 }
 
@@ -27,6 +29,7 @@ constexpr double middle = 0.55, half_width = 0.45;  // of that interval, in part
 
 template <class R>
 bool Multigrid<R>::resize(const Lattice& lattice, int stride, const std::function<bool()>& stops) {
+  assert(lattice.size() > 0 && stride >= lattice.columns);
   if (!levels_.empty() && levels_[0].rows == lattice.rows && levels_[0].columns == lattice.columns) return true;
   std::vector<Level> levels;
   for (int rows = lattice.rows, columns = lattice.columns;;) {
@@ -44,6 +47,7 @@ bool Multigrid<R>::resize(const Lattice& lattice, int stride, const std::functio
     if (coarser(rows) == rows && coarser(columns) == columns) break;
     rows = coarser(rows), columns = coarser(columns);
   }
+  assert(levels.back().rows <= coarsest && levels.back().columns <= coarsest);
   work_stride_ = simd::row_stride<R>(lattice.columns + 2);
   for (Array<R>& row : scratch_) row.assign(std::size_t(operator_pitch(work_stride_)) + 6 * Level::lead, R(0));
   zeros_.assign(scratch_[0].size(), R(0));
@@ -55,12 +59,14 @@ bool Multigrid<R>::resize(const Lattice& lattice, int stride, const std::functio
 
 template <class R>
 void Multigrid<R>::share_level(Level& level, int size) const {
+  assert(size >= 1);
   level.parts.resize(std::size_t(level.rows < shared_rows(size) ? 1 : size));
   const int parts = int(level.parts.size());
   if (parts > 1) level.r.resize(level.rows + 3, level.stride);
   for (int n = 0; n < parts; ++n) {
     Part& part = level.parts[std::size_t(n)];
     part.own = share_of(level.rows, n, parts);
+    assert(part.own.begin < part.own.end && (parts == 1 || part.own.end - part.own.begin >= 2 * halo));
     part.first = std::max(part.own.begin - halo, 0);
     const int rows = std::min(part.own.end + halo, level.rows) - part.first;
     for (Field* field : {&part.d, &part.q, &part.r}) field->resize(rows + 3, level.stride);
@@ -97,6 +103,8 @@ std::size_t Multigrid<R>::bytes() const {
 
 template <class R>
 void Multigrid<R>::prepare(const SpringMatrix<R>& matrix, const std::function<bool()>& stops) {
+  assert(!levels_.empty() && matrix.coefficients != nullptr && matrix.m > 0);
+  assert(matrix.fixed.empty() || matrix.fixed.size() >= std::size_t(levels_[0].rows) * levels_[0].columns);
   matrix_ = matrix;
   prepare_finest(stops);
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) coarsen(l, stops);
@@ -128,6 +136,7 @@ void Multigrid<R>::prepare_finest(const std::function<bool()>& stops) {
 template <class R>
 void Multigrid<R>::build_nine_point_row(int i) {
   Level& at = levels_[0];
+  assert(i >= 0 && i < at.rows);
   R* row = scratch(i % 2);
   if (i == 0)
     for (int c = 0; c < block_parts; ++c) std::fill_n(row + c * work_stride_, at.columns, c < 3 ? R(matrix_.m) : R(0));
@@ -156,6 +165,7 @@ const R* Multigrid<R>::next_coarse_columns(std::size_t level, int i) {
 
 template <class R>
 void Multigrid<R>::coarsen(std::size_t from, const std::function<bool()>& stops) {
+  assert(from + 1 < levels_.size());
   const Level& at = levels_[from];
   Level& next = levels_[from + 1];
   const R* none = zeros_.data() + Level::lead;
@@ -169,6 +179,7 @@ void Multigrid<R>::coarsen(std::size_t from, const std::function<bool()>& stops)
       rows[0] = rows[2], rows[1] = following(), rows[2] = following();
       coarsen_rows(rows[0], rows[1], rows[2], next.block_row(I), next.stride, next.columns);
     }
+    assert(I + 1 < next.rows || i == at.rows);  // no row is left out
     invert_blocks_row<R>(next.block_row(I), next.inverse_row(I), next.stride, next.columns);
   }
 }
@@ -214,6 +225,7 @@ template <class R>
 void Multigrid<R>::solve_coarsest() {
   Level& at = levels_.back();
   const int n = 3 * at.rows * at.columns;
+  assert(n <= 3 * coarsest * coarsest && coarsest_.size() == std::size_t(n) * n);
   double r[3 * coarsest * coarsest];
   for (int p = 0; p < n / 3; ++p)
     for (int c = 0; c < 3; ++c) r[3 * p + c] = double(at.given.row(p / at.columns, c)[p % at.columns]);
@@ -279,6 +291,7 @@ void Multigrid<R>::follow_each_other(int number, RowRange rows, const Passes&...
 
 template <class R>
 void Multigrid<R>::restrict_residual(std::size_t level, int number) {
+  assert(level + 1 < levels_.size() && number >= 0);
   Level &at = levels_[level], &next = levels_[level + 1];
   const std::ptrdiff_t wide = level == 0 ? work_stride_ : at.stride;
   R* sum = rows_[std::size_t(2 * number)].data() + Level::lead;
@@ -308,6 +321,7 @@ void Multigrid<R>::restrict_residual(std::size_t level, int number) {
 /// Row i of d = P x of the next level, x += d.
 template <class R>
 void Multigrid<R>::prolong_correction(std::size_t level, int number, int i) {
+  assert(level + 1 < levels_.size() && number >= 0);
   Level &at = levels_[level], &next = levels_[level + 1];
   Part& part = at.parts[std::size_t(number)];
   R *between = rows_[std::size_t(2 * number)].data(), *fine = rows_[std::size_t(2 * number + 1)].data();
@@ -328,6 +342,7 @@ void Multigrid<R>::prolong_correction(std::size_t level, int number, int i) {
 
 template <class R>
 void Multigrid<R>::cycle(std::size_t level, const Field& given, int number) {
+  assert(level < levels_.size() && given.pitch() == 3 * levels_[level].stride);
   Level& at = levels_[level];
   if (number >= int(at.parts.size())) return;
   if (level > 0 && level + 1 == levels_.size()) return solve_coarsest();
@@ -376,6 +391,7 @@ void Multigrid<R>::cycle(std::size_t level, const Field& given, int number) {
 
 template <class R>
 const RowField<R>& Multigrid<R>::precondition(const Field& r, int number) {
+  assert(number >= 0 && number < threads());
   cycle(0, r, number);
   return levels_[0].x;
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -46,7 +47,10 @@ class Multigrid {
   static constexpr int shared_rows(int size) { return size * least_rows; }
   /// All of the crew, or one, and the rows of each.
   int threads() const { return int(levels_[0].parts.size()); }
-  RowRange rows_of(int number) const { return levels_[0].parts[std::size_t(number)].own; }
+  RowRange rows_of(int number) const {
+    assert(number >= 0 && number < threads());
+    return levels_[0].parts[std::size_t(number)].own;
+  }
   /// Takes a matrix, which must stay where it is, unless it stops.
   void prepare(const SpringMatrix<R>& matrix, const std::function<bool()>& stops);
   /// Computes B r, where B is symmetric and near A⁻¹; to be called by all threads. Of what it returns each may read its

@@ -1,5 +1,6 @@
 #include "core/engines/implicit/stiff_stage.h"
 
+#include <cassert>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -17,6 +18,7 @@ glm::dvec3 at(const Field& x, int i, int j) {
 
 /// Adds a third of the wind on a triangle to each of its corners.
 void blow(const Preset& preset, double scale, const Field& x, int i, int j, int which, Field& forces) {
+  assert(which == 0 || which == 1);
   const auto& corners = quad_triangles[std::size_t((i + j) & 1)][std::size_t(which)];
   glm::dvec3 corner[3];
   for (int n = 0; n < 3; ++n) corner[n] = at(x, i + corners[std::size_t(n)].di, j + corners[std::size_t(n)].dj);
@@ -57,6 +59,8 @@ template <class R, class S>
 Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& task, SolveCounts& counts) {
   const Preset& p = task.preset;
   const double h = task.h, scale = h * h / p.m;
+  assert(possible(p) && h > 0 && p.m > 0 && task.stride >= task.lattice.columns);
+  assert(task.fixed.empty() || task.fixed.size() >= std::size_t(task.lattice.size()));
   if (!solver.resize(task.lattice, task.stops)) return {};
   const bool begun = for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
     const bool fixed = is_fixed(task, i, j);
@@ -101,6 +105,7 @@ Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, Too
   const StageLimit limit = stage.limit();
   const bool limited = limit.seconds > 0, slow = limited && too_slow.stages > 0;
   too_slow.stages -= slow;
+  assert(too_slow.stages >= 0);
   const bool stiff_first = both && stiffness_of(preset, h) >= stiff;
   const auto over = [&](double part) { return limited && limit.is_over(part); };
   if (stiff_first && slow) return stage.solve_quickly();

@@ -2,6 +2,7 @@
 // engine, if Newton's method would stall or has stalled.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,6 +24,7 @@ inline constexpr double stiff = 10;
 /// From here on the linear systems, too, are solved in double.
 inline constexpr double very_stiff = 1e6;
 inline double stiffness_of(const Preset& preset, double h) {
+  assert(h > 0 && preset.m > 0);
   return preset.k_s * h * h / preset.m;
 }
 
@@ -65,6 +67,7 @@ class StiffStage {
 /// makes more of the rest.
 inline constexpr double first_share = 0.6, nearly_there = 1e-3;
 inline double stiff_share(double residual) {
+  assert(!(residual < 0));
   return residual <= nearly_there ? 1 : first_share;
 }
 

@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <cassert>
+
 #include "core/engines/implicit/stiffness.h"
 #include "core/simd/simd-inl.h"
 
@@ -30,6 +32,7 @@ HWY_INLINE Vec3<D> resistance(const hn::TFromD<D>* c, std::ptrdiff_t stride, Vec
 
 template <class R>
 double multiply(const ProductTask<R>& t) {
+  assert(t.columns > 0 && t.columns <= t.stride && t.m > 0);
   using D = hn::ScalableTag<R>;
   using V = Vec3<D>;
   constexpr int lanes = int(hn::MaxLanes(D()));
@@ -63,6 +66,7 @@ double multiply(const ProductTask<R>& t) {
 
 template <class R>
 Residual update(const UpdateTask<R>& t) {
+  assert(t.columns > 0 && t.columns <= t.stride);
   using D = hn::ScalableTag<R>;
   using V = Vec3<D>;
   using L = Lanes<D>;
@@ -90,6 +94,7 @@ Residual update(const UpdateTask<R>& t) {
 
 template <class R>
 void add_scaled(const R* x, double beta, R* y, int count) {
+  assert(count >= 0 && x != y);
   using D = hn::ScalableTag<R>;
   using L = Lanes<D>;
   const L factor = L::all(beta);

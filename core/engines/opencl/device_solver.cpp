@@ -1,6 +1,7 @@
 #include "core/engines/opencl/device_solver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -53,6 +54,7 @@ std::size_t DeviceSolver<R>::bytes() const {
 
 template <class R>
 bool DeviceSolver<R>::solve(const Task& task) {
+  assert(task.h > 0 && task.position != task.velocity && task.fixed != nullptr);
   task_ = task;
   stopped_ = false;
   const int position = task.position, velocity = task.velocity;
@@ -68,7 +70,10 @@ void DeviceSolver<R>::read_scene() {
   tears_ = Tears(lattice_);
   state_.download(tears_);
   fixed_.assign(std::size_t(lattice_.size()), 0);
-  for (const int p : *task_.fixed) fixed_[std::size_t(p)] = 1;
+  for (const int p : *task_.fixed) {
+    assert(p >= 0 && p < lattice_.size());
+    fixed_[std::size_t(p)] = 1;
+  }
 }
 
 template <class R>
@@ -79,6 +84,7 @@ void DeviceSolver<R>::keep() {
 
 template <class R>
 void DeviceSolver<R>::restore() {
+  assert(kept_);
   state_.copy(kept_.get(), state_.vector(task_.velocity));
   evaluate();
   arrive();
@@ -126,6 +132,7 @@ Balance DeviceSolver<R>::balance() {
 
 template <class R>
 void DeviceSolver<R>::launch(const Kernel& kernel, std::size_t groups) const {
+  assert(groups >= 1 && groups <= groups_);
   const std::size_t local = width_ == 1 ? group_items : 1, global = groups * local;
   check(clEnqueueNDRangeKernel(device_->queue(), kernel.get(), 1, nullptr, &global, &local, 0, nullptr, nullptr),
         "starting a kernel");
@@ -258,6 +265,7 @@ typename DeviceSolver<R>::Left DeviceSolver<R>::make_gradients(int most) const {
 
 template <class R>
 void DeviceSolver<R>::launch_step(int n, int most) const {
+  assert(n >= 0 && n < most);
   const Kernel &multiply = task_.kernels->multiply, &update = task_.kernels->update;
   constexpr double tolerance2 = linear_tolerance * linear_tolerance;
   const std::size_t even = n % 2, odd = 1 - even;
@@ -300,6 +308,7 @@ typename DeviceSolver<R>::Left DeviceSolver<R>::make_gradients_in_launches(int m
 template <class R>
 bool DeviceSolver<R>::solve_directly() {
   if (task_.preset->kind == Kind::one_weight || !DirectSolver::is_quick(lattice_)) return false;
+  assert(fixed_.size() == std::size_t(lattice_.size()));
   const std::size_t row = std::size_t(state_.mask_pitch()), margin = 16;
   std::vector<R> coefficients(coefficient_numbers_);
   check(clEnqueueReadBuffer(device_->queue(), coefficients_.get(), CL_TRUE, 0, coefficient_numbers_ * sizeof(R),

@@ -34,6 +34,7 @@ DeviceState<R>::~DeviceState() {
 
 template <class R>
 cl_mem DeviceState<R>::other(int n) {
+  assert(n >= 0 && std::size_t(n) < vectors_.size());
   Vector& vector = vectors_[std::size_t(n)];
   if (!vector.other.memory) vector.other.memory = field();
   if (vector.other.slot >= 0 && vector.other.slot == lent_->shown) std::swap(vector.other, spare_);
@@ -42,6 +43,7 @@ cl_mem DeviceState<R>::other(int n) {
 
 template <class R>
 void DeviceState<R>::swap(int n) {
+  assert(n >= 0 && std::size_t(n) < vectors_.size() && vectors_[std::size_t(n)].other.memory);
   std::swap(vectors_[std::size_t(n)].now, vectors_[std::size_t(n)].other);
 }
 
@@ -53,6 +55,7 @@ cl_mem DeviceState<R>::overwritten(int n) {
 
 template <class R>
 R* DeviceState<R>::map(cl_mem field, cl_map_flags how) const {
+  assert(field != nullptr);
   cl_int code = CL_SUCCESS;
   void* at =
       clEnqueueMapBuffer(device_->queue(), field, CL_TRUE, how, 0, numbers_ * sizeof(R), 0, nullptr, nullptr, &code);
@@ -97,6 +100,7 @@ void DeviceState<R>::read_patch(Vector& vector, int i, int j) const {
   patch.i = std::max(i - reach, 0), patch.j = std::max(j - reach, 0);
   patch.rows = std::min(i + reach + 1, lattice_.rows) - patch.i;
   patch.columns = std::min(j + reach + 1, lattice_.columns) - patch.j;
+  assert(patch.holds(i, j));
   patch.numbers.resize(3 * std::size_t(patch.rows) * std::size_t(patch.columns));
   // A component is a line of the rectangle, a row of the cloth a plane of it.
   const std::size_t line = std::size_t(stride_) * sizeof(R), short_line = std::size_t(patch.columns) * sizeof(R);
@@ -125,6 +129,7 @@ void DeviceState<R>::end_views() {
 
 template <class R>
 bool DeviceState<R>::use_memory(std::shared_ptr<PositionMemory> memory) {
+  static_assert(std::tuple_size_v<decltype(floats_)> == PositionMemory::count);
   assert(memory->bytes >= slot_bytes());
   std::array<Memory, PositionMemory::count> slots;
   for (std::size_t n = 0; n < slots.size(); ++n)
@@ -176,6 +181,7 @@ void DeviceState<R>::upload(std::span<const std::uint8_t> bytes, cl_mem to) cons
 
 template <class R>
 void DeviceState<R>::download(Tears& tears) const {
+  assert(tears.lattice() == lattice_);
   std::vector<std::uint8_t> all(mask_bytes_);
   check(clEnqueueReadBuffer(device_->queue(), springs_.get(), CL_TRUE, 0, all.size(), all.data(), 0, nullptr, nullptr),
         "reading from the device");

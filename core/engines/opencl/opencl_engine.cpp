@@ -93,8 +93,10 @@ DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& swee
   k.dt = R(p.dt), k.to_way = R(p.dt / scale), k.to_velocity = R(1 / scale);
   k.k = R(p.k), k.middle = R(p.x_0.y);
   int next = 0;
-  for (const Coefficient& c : coefficients(sweep.assignments))
+  for (const Coefficient& c : coefficients(sweep.assignments)) {
+    assert(next < int(std::size(k.c)));
     k.c[next++] = R(c.factor * power(p.dt, c.dt_power) / (c.of_force ? p.m : 1));
+  }
   return k;
 }
 
@@ -176,6 +178,7 @@ void OpenClEngine<R>::launch_rows(const Kernel& kernel, int columns) const {
 
 template <class R>
 void OpenClEngine<R>::launch_sweep(const Kernel& kernel, int at, const Constants& k, int slot, int levels) const {
+  assert(slot >= 0 && slot <= idle_slot && levels >= 1 && levels <= levels_);
   const cl_mem masks = state_.masks(), reports = reports_.get(), hand = hand_.get(), bodies = bodies_.get(),
                contact_list = contact_list_.get(), scratch = scratch_.get();
   set_arguments(kernel, at, scratch, cl_int(bands_), cl_int(levels), cl_int(band_numbers_), masks,
@@ -331,6 +334,7 @@ void OpenClEngine<R>::note_contacts(bool on) {
 
 template <class R>
 void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
+  assert(pinned.empty() || (pinned.front() >= 0 && pinned.back() < lattice_.size()));
   const bool same =
       held.particle == held_.particle && std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   // Who is let go may be inside a body.
@@ -367,6 +371,7 @@ void OpenClEngine<R>::write_fixed_velocities() {
 
 template <class R>
 void OpenClEngine<R>::upload_masks(const Tears& tears) {
+  assert(tears.untorn() || tears.lattice() == lattice_);
   std::vector<std::uint8_t> springs(std::size_t(lattice_.size())), guards(springs.size());
   constexpr std::uint8_t bit_free = 64;  // as in cloth.cl
   for (int i = 0; i < lattice_.rows; ++i)

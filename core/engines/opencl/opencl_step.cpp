@@ -1,6 +1,7 @@
 // Steps on a device: they are queued in batches, as long as the guard expects that none needs examining, and checked by
 // their reports.
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 
@@ -11,6 +12,8 @@ namespace tyglab::opencl {
 
 template <class R>
 void OpenClEngine<R>::enqueue_tear(int slot) {
+  assert(slot >= 0 && slot < StepGuard::steps_between_backups);
+  assert(preset_.k_s > 0 && preset_.F_max > 0);
   const auto set = [&](auto exact) {
     using B = decltype(exact);
     const double straight = directions[0].rest * preset_.L, diagonal = directions[2].rest * preset_.L;
@@ -33,6 +36,7 @@ void OpenClEngine<R>::enqueue_tear(int slot) {
 
 template <class R>
 bool OpenClEngine<R>::run(int count, bool tear_each) {
+  assert(count >= 1 && count <= StepGuard::steps_between_backups);  // each has its report
   const auto begun = std::chrono::steady_clock::now();
   state_.end_views();
   const cl_uint zero = 0;
@@ -68,6 +72,7 @@ bool OpenClEngine<R>::run(int count, bool tear_each) {
 /// A batch cannot be stopped, so where somebody may want to it is no longer than a person notices.
 template <class R>
 int OpenClEngine<R>::steps_of_batch(int most) const {
+  assert(most >= 1);
   if (solver_) return 1;              // to solve is to wait anyway
   constexpr double unnoticed = 0.03;  // s
   const int batch = guard_.steps_ahead(most, tears_each_);
@@ -144,6 +149,8 @@ bool OpenClEngine<R>::well_on_device(double& divergence_budget) {
 
 template <class R>
 StepMeasures OpenClEngine<R>::measures(int step) {
+  assert(step >= 0 && std::size_t(step) < report_.size());
+  assert(held_.particle < 0 || 4 * (std::size_t(step) + 1) <= hand_forces_.size());
   const DeviceStepMeasures& report = report_[std::size_t(step)];
   StepMeasures result;
   result.elongation = max_elongation(report.way), result.dt = preset_.dt;
@@ -174,6 +181,7 @@ BatchResult OpenClEngine<R>::make_steps(int most, Tears& tears, Fault& fault) {
 /// Springs are examined in each step, since one may have been torn in any of them.
 template <class R>
 void OpenClEngine<R>::repeat(int steps, Tears& tears) {
+  assert(steps >= 0 && !repeating_);
   const bool watched = tears_watched();
   state_.restore();
   synchronized_ = synchronized_backup_;
@@ -187,6 +195,7 @@ void OpenClEngine<R>::repeat(int steps, Tears& tears) {
       throw;
     }
     repeating_ = false;
+    assert(report_.size() == std::size_t(steps));
     report_.erase(report_.begin(), report_.end() - 1);
     if (held_.particle >= 0) hand_forces_.erase(hand_forces_.begin(), hand_forces_.end() - 4);
   }
@@ -205,6 +214,7 @@ AdvanceResult OpenClEngine<R>::advance(int steps, Tears& tears) {
 
 template <class R>
 void OpenClEngine<R>::read_contacts(std::uint32_t count) {
+  assert(count <= std::uint32_t(lattice_.size()));  // one a particle
   contacts_.clear();
   const auto take = [&](auto example) {
     std::vector<decltype(example)> list(count);
