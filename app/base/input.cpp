@@ -58,8 +58,8 @@ void InputQueue::add(const PointerEvent& event) {
 
 /// Two in quick succession are a double click even where one frame holds both.
 void InputQueue::note_left_press(double time) {
-  const bool second =
-      time - last_press < double_click_s && std::hypot(at.x - last_press_at.x, at.y - last_press_at.y) < 6;
+  const float apart = std::hypot(at.x - last_press_at.x, at.y - last_press_at.y);
+  const bool second = time - last_press < double_click_s && apart < double_click_px;
   if (second) double_click = true, double_click_frames = 3;
   last_press = second ? -1 : time;
   last_press_at = at;

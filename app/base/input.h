@@ -55,11 +55,13 @@ struct InputQueue {
   bool double_click = false;           ///< the left button went down for the second time at the same place, just now
   int double_click_frames = 0;         ///< for how many frames more that counts: Dear ImGui sees a press frames later
   double double_click_s = 0.4;         ///< longest time between its presses; longer where frames are slow
+  float double_click_px = 6;           ///< farthest that its presses are apart
   double last_press = -1;              ///< s, of the left button
   glm::vec2 last_press_at{0};
 
   std::function<int(glm::vec2)> finger_button;     ///< GLFW_MOUSE_BUTTON_… that a finger there stands for; none: left
   std::function<bool(glm::vec2)> finger_on_cloth;  ///< whether a finger there is over the cloth's picture
+  std::function<bool(glm::vec2)> finger_on_list;   ///< whether it is over what scrolls
 
   // What GLFW's callbacks are told; times are glfwGetTime's, s.
   void on_key(int key, int action, int mods);

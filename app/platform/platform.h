@@ -20,9 +20,9 @@ namespace tyglab {
 
 /// Where a copied link begins, "https://host/path/"; empty elsewhere.
 std::string page_address();
-/// Shows a link ("#hanging&k_s=100") in the address bar, where there is one, with the lab that is played (empty: none);
-/// as a further place that the browser goes back from, or in place of the present one.
-void show_in_address(const std::string& link, const std::string& lab, bool further);
+/// Shows a link ("#hanging&k_s=100") in the address bar, where there is one, with the lab that is played (empty: none)
+/// and its step, counted from 1; as a further place that the browser goes back from, or in place of the present one.
+void show_in_address(const std::string& link, const std::string& lab, int step, bool further);
 
 // Advice about graphics for the users of this system.
 
@@ -71,7 +71,10 @@ bool files_are_handed_out();
 void hand_out(const std::filesystem::path& file);
 /// Asks for a file that has one of these endings (".json,.png"); it arrives like one that is dropped on the window.
 void ask_for_file(const std::string& endings);
+/// Whether the clipboard has taken the last text; a page that may not use it shows the text instead, to be copied.
+bool clipboard_took();
 /// Keeps the small files of a folder and those below it for the next session, where the system would forget them.
+/// Throws OutputError.
 void keep_files(const std::filesystem::path& folder);
 
 // OpenGL without a window or a display.
@@ -105,6 +108,8 @@ class FrameLoop {
   virtual bool run_frame() = 0;
   /// Ends the program after the last frame, and returns its exit code.
   virtual int finish() = 0;
+  /// The program may end here without a word, as a page that is left: keeps what would be lost.
+  virtual void leave() {}
 };
 
 /// Makes all turns and returns what finish() does. A browser makes them after this has returned, with 0.

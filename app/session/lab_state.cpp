@@ -55,6 +55,20 @@ std::size_t resumed_at(const Lab& lab, int done) {
   return at;
 }
 
+/// The label of the preset that is open in a step.
+std::string opened_in(const Lab& lab, std::size_t step) {
+  while (step > 0 && !lab.steps[step].open) --step;
+  return lab.steps[step].open ? fs::path(lab.steps[step].open->preset).stem().string() : std::string();
+}
+
+/// The step that is asked for, or the last before it at which one can begin, where `open` is the present preset: a step
+/// that opens none goes on with that of the one before.
+std::size_t nearest_beginning(const Lab& lab, std::size_t step, const std::string& open) {
+  std::size_t at = std::min(step, lab.steps.size() - 1);
+  while (at > 0 && (looks_back(lab.steps[at]) || (!lab.steps[at].open && opened_in(lab, at) != open))) --at;
+  return at;
+}
+
 /// What the step that follows wants to know of this moment, and what this one has compared with the one before.
 void keep_outcome(Session& session, LabRun& run) {
   assert(run.record().done);
@@ -253,7 +267,7 @@ int steps_done(const Session& session, const Lab& lab) {
   return done == session.labs.progress.end() ? 0 : std::clamp(done->second, 0, int(lab.steps.size()));
 }
 
-void begin_lab(Session& session, std::string_view label) {
+void begin_lab(Session& session, std::string_view label, std::optional<std::size_t> step) {
   const std::vector<Lab>& list = find_labs(session);
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return session.messages.error("There is no lab " + std::string(label) + ".");
@@ -270,9 +284,10 @@ void begin_lab(Session& session, std::string_view label) {
   ++session.counts.labs_begun;
   LabRun& run = session.labs.run.emplace();
   run.lab = *lab;
-  const std::size_t at = resumed_at(*lab, steps_done(session, *lab));
+  const std::size_t at =
+      step ? nearest_beginning(*lab, *step, session.document.label) : resumed_at(*lab, steps_done(session, *lab));
   run.records = records_of(session.labs, *lab, at);
-  session.labs.opened.clear();
+  session.labs.opened = at > 0 && !lab->steps[at].open ? session.document.label : std::string();
   enter_step(session, at);
 }
 

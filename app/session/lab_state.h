@@ -114,8 +114,9 @@ const std::vector<Lab>& find_labs(Session& session);
 /// How many of the lab's steps are done, as it is remembered.
 int steps_done(const Session& session, const Lab& lab);
 
-/// Begins a lab where it was left, at a step that opens a preset.
-void begin_lab(Session& session, std::string_view label);
+/// Begins a lab where it was left, at a step that opens a preset; or at `step`, counted from 0, or the last one before
+/// it at which one can begin.
+void begin_lab(Session& session, std::string_view label, std::optional<std::size_t> step = std::nullopt);
 /// Goes to a step, and opens its preset, paused.
 void enter_step(Session& session, std::size_t step);
 /// One step back, to be read; nothing is opened.

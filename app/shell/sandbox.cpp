@@ -45,6 +45,7 @@ class Sandbox : public FrameLoop {
   }
   bool run_frame() override;
   int finish() override;
+  void leave() override;
 
  private:
   bool restores() const { return !options_.explicit_preset && !session_.scripted && settings_.session.has_value(); }
@@ -90,7 +91,8 @@ class Sandbox : public FrameLoop {
   std::optional<FileStamp> texture_read_;  ///< of the texture that is shown
   std::optional<Preset> linked_;           ///< whose link the page's address shows
   std::uint64_t linked_document_ = 0;
-  std::string linked_lab_;           ///< and the lab that it shows
+  std::string linked_lab_;  ///< and the lab that it shows
+  std::size_t linked_step_ = 0;
   bool address_left_ = false;        ///< the browser has gone to another link
   std::array<std::string, 3> told_;  ///< in words
   double next_link_ = 0;             ///< s, not before which it is looked at again
@@ -115,7 +117,12 @@ Sandbox::Sandbox(const SandboxOptions& options)
   input_.finger_button = [this](glm::vec2 at) { return finger_button(tools_, at); };
   input_.finger_on_cloth = [this](glm::vec2 at) { return scene_.viewport.takes(at); };
   if (files_are_handed_out()) session_.messages.unnamed = home_folder().string();
-  if (!options_.lab.empty()) ui_.act([lab = options_.lab](Ui& ui) { begin_lab(ui.session, lab); });
+  input_.finger_on_list = [](glm::vec2 at) { return gui::scrolls_at({at.x, at.y}); };
+  if (!options_.lab.empty()) {
+    std::optional<std::size_t> step;
+    if (options_.lab_step > 0) step = std::size_t(options_.lab_step - 1);
+    ui_.act([lab = options_.lab, step](Ui& ui) { begin_lab(ui.session, lab, step); });
+  }
   ui_.panels = options_.panels;
   last_time_ = window_time();
 }
@@ -232,13 +239,14 @@ void Sandbox::show_link() {
   tell();
   const Preset preset = session_.requested_preset();
   const std::string lab = session_.labs.run ? session_.labs.run->lab.label : "";
+  const std::size_t step = session_.labs.run ? session_.labs.run->step : 0;
   const bool opened = std::exchange(linked_document_, session_.counts.documents) != session_.counts.documents;
-  const bool same = linked_ && *linked_ == preset && linked_lab_ == lab && !opened;
+  const bool same = linked_ && *linked_ == preset && linked_lab_ == lab && linked_step_ == step && !opened;
   // Where the browser went, but the program did not follow.
   const bool left = address_left_ && ui_.dialog.kind == Dialog::Kind::none;
   if (same && !left) return;
-  show_in_address(link_to(preset, session_.document.label), lab, opened && linked_.has_value());
-  linked_ = preset, linked_lab_ = lab, address_left_ = false;
+  show_in_address(link_to(preset, session_.document.label), lab, int(step) + 1, opened && linked_.has_value());
+  linked_ = preset, linked_lab_ = lab, linked_step_ = step, address_left_ = false;
 }
 
 /// When a frame is wanted again though nothing moves; the panels have said what they want of it.
@@ -379,6 +387,12 @@ int Sandbox::finish() {
   remember();
   const int code = write_outputs();
   return code == done && InterruptGuard::interrupted() ? int(interrupted) : code;
+}
+
+void Sandbox::leave() {
+  next_link_ = 0;
+  show_link();
+  remember();
 }
 
 int Sandbox::write_outputs() {

@@ -32,6 +32,7 @@ struct SandboxOptions {
   std::optional<ParticleField> color;    ///< what colors the cloth; none: as in the last session
   std::optional<Effects::Mode> effects;  ///< none: all with `frames`, else as in the last session
   std::string lab;                       ///< that is begun, by its label; empty: none
+  int lab_step = 0;                      ///< its step, counted from 1; 0: where it was left
   bool panels = true;                    ///< are shown
   int width = 0, height = 0;             ///< of the window; 0: as in the last session
 };

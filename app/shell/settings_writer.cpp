@@ -51,6 +51,7 @@ bool SettingsWriter::update(double now, const std::function<Settings()>& present
 void SettingsWriter::finish(const Settings& last) {
   if (job_.busy()) take();
   save_settings(last, known_);
+  keep_files(config_folder());
   known_ = last;
 }
 

@@ -333,6 +333,26 @@ TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset")
   CHECK(session.messages.list().size() == 1);
 }
 
+TEST_CASE("a lab begins at the step that is asked for, or at the last one before it that can begin here") {
+  Session session;
+  session.simulation = std::make_shared<Simulation>(Preset{});
+  begin_lab(session, "01_hooke", 2);
+  CHECK(session.labs.run->step == 2);
+  // The second step goes on with what the first one opened.
+  session.document.label = "elsewhere";
+  begin_lab(session, "01_hooke", 1);
+  CHECK(session.labs.run->step == 0);
+  session.document.label = session.labs.opened;
+  begin_lab(session, "01_hooke", 1);
+  CHECK(session.labs.run->step == 1);
+  CHECK_FALSE(lab_is_away(session));
+  // Its second step compares with the first one.
+  begin_lab(session, "05_order", 1);
+  CHECK(session.labs.run->step == 0);
+  begin_lab(session, "05_order", 100);
+  CHECK(session.labs.run->step < session.labs.run->lab.steps.size());
+}
+
 /// Updates until the limits of the present constants and the present moment are there.
 void wait_for_limits(Session& session) {
   for (int n = 0; n < 20000; ++n) {

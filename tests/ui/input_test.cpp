@@ -3,7 +3,9 @@
 
 #include <initializer_list>
 
+#include "app/base/fingers.h"
 #include "app/base/glfw_keys.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::input_test {
@@ -222,6 +224,121 @@ TEST_CASE("what the pointer points at counts while it is over the window, or the
   window.input.inside = true;
   window.frame();
   CHECK(points());
+}
+
+/// A screen that fingers touch, as the page has it.
+struct TouchScreen {
+  using Phase = Fingers::Phase;
+  explicit TouchScreen(test::NullUi& of) : window(of) {
+    window.input.by_touch = true;
+    window.input.double_click_px = 24;
+    window.input.finger_button = [this](glm::vec2 at) { return finger_button(window.tools, at); };
+    window.input.finger_on_cloth = [this](glm::vec2 at) { return window.ui.viewport.takes(at); };
+    window.input.finger_on_list = [](glm::vec2 at) { return gui::scrolls_at({at.x, at.y}); };
+    fingers.wheel_step = 5 * ImGui::GetFontSize();
+  }
+  void on(int finger, Phase phase, glm::vec2 at) {
+    fingers.on_finger(window.input, finger, phase, at, window.ui.now);
+    frames(1);
+  }
+  void frames(int count) {
+    for (int n = 0; n < count; ++n) {
+      window.frame();
+      fingers.update(window.input, window.ui.now);
+    }
+  }
+  void tap(glm::vec2 at) {
+    on(1, Phase::down, at);
+    on(1, Phase::up, at);
+    frames(4);
+  }
+  void drag(glm::vec2 from, glm::vec2 to) {
+    on(1, Phase::down, from);
+    for (int n = 1; n <= 8; ++n) on(1, Phase::move, from + (to - from) * (float(n) / 8));
+    on(1, Phase::up, to);
+    frames(8);
+  }
+
+  test::NullUi& window;
+  Fingers fingers;
+};
+
+TEST_CASE("a gesture of two fingers is no press where the first of them landed") {
+  test::NullUi window;
+  window.pause();
+  TouchScreen screen(window);
+  const Preset before = window.preset();
+  const float distance = window.scene.camera.distance;
+  const auto pinch = [&](glm::vec2 at) {
+    screen.on(1, TouchScreen::Phase::down, at);
+    screen.frames(3);  // the second finger comes a moment later
+    screen.on(2, TouchScreen::Phase::down, at + glm::vec2(40, 0));
+    for (float n = 1; n <= 8; ++n) {
+      screen.on(1, TouchScreen::Phase::move, at - glm::vec2(5 * n, 0));
+      screen.on(2, TouchScreen::Phase::move, at + glm::vec2(40 + 5 * n, 0));
+    }
+    screen.on(2, TouchScreen::Phase::up, at + glm::vec2(80, 0));
+    screen.on(1, TouchScreen::Phase::up, at);
+    screen.frames(8);
+  };
+  for (const char* control : {"top.play", "constants.dt.value"}) pinch(window.middle(control));
+  pinch(window.along("constants.k_s.slider", 0.9f));
+  CHECK(window.paused());
+  CHECK_FALSE(window.typing());
+  const glm::vec2 particle = window.pixel_of(6, 6);
+  pinch(particle);
+  window.tools.finger_cuts = true;
+  pinch(particle);
+  CHECK(window.preset() == before);
+  CHECK_FALSE(window.session.picked);
+  CHECK(window.torn() == 0);
+  CHECK(window.scene.camera.distance < 0.8f * distance);
+  // One that ends as a gesture of the system is none either.
+  screen.on(1, TouchScreen::Phase::down, window.middle("top.play"));
+  screen.on(1, TouchScreen::Phase::ended, window.middle("top.play"));
+  screen.frames(8);
+  CHECK(window.paused());
+  screen.tap(window.middle("top.play"));
+  CHECK_FALSE(window.paused());
+}
+
+TEST_CASE("one finger grabs the cloth, turns a slider sideways, and scrolls what scrolls") {
+  test::NullUi window({.size = {1280, 500}});
+  window.pause();
+  TouchScreen screen(window);
+  const glm::vec2 slider = window.along("constants.k_s.slider", 0.5f);
+  const Preset before = window.preset();
+  screen.drag(slider, slider - glm::vec2(0, 120));
+  CHECK(window.preset() == before);
+  CHECK(window.middle("constants.k_s.slider").y == doctest::Approx(slider.y - 120).epsilon(0.05));
+  const glm::vec2 there = window.along("constants.k_s.slider", 0.5f);
+  screen.drag(there, there + glm::vec2(30, 0));
+  CHECK(window.preset().k_s > before.k_s);
+  const glm::vec2 particle = window.pixel_of(6, 6);
+  screen.on(1, TouchScreen::Phase::down, particle);
+  for (int n = 0; n < 12; ++n) screen.on(1, TouchScreen::Phase::move, particle + glm::vec2(5 * n, 0));
+  CHECK(window.cloth().held());
+  screen.on(1, TouchScreen::Phase::up, particle);
+  screen.frames(4);
+  CHECK_FALSE(window.cloth().held());
+}
+
+TEST_CASE("a tap on a number opens it with its text selected, and so does a double tap") {
+  test::NullUi window;
+  window.pause();
+  TouchScreen screen(window);
+  for (int taps : {1, 2}) {
+    CAPTURE(taps);
+    const glm::vec2 number = window.middle("constants.k_s.value");
+    for (int n = 0; n < taps; ++n) screen.tap(number);
+    REQUIRE(window.typing());
+    window.add_typed(taps == 1 ? "77" : "88");
+    screen.frames(6);
+    window.key(test::NullUi::enter);
+    screen.frames(4);
+    CHECK(window.preset().k_s == (taps == 1 ? 77 : 88));
+    screen.frames(60);
+  }
 }
 
 }  // namespace tyglab::input_test

@@ -310,8 +310,47 @@ class Tests:
         blocked = "".join(f"""Object.defineProperty(window, '{name}', {{
             get() {{ throw new DOMException('no access', 'SecurityError'); }} }});""" for name in ["localStorage", "sessionStorage"])
         page = self.open("?report#hanging", script=blocked)
+        wait_for(page, "it says so", lambda now: any("storage is full or blocked" in said for said in now["messages"]))
         before = report(page)["frames"]
         wait_for(page, "it goes on", lambda now: now["frames"] > before + 10)
+        page.call("Page.close")
+
+    def test_reload(self):
+        """What was changed just before is there again, and so is a lab's step."""
+        page = self.open("?report#hanging")
+
+        def reload():
+            page.call("Page.reload")
+            time.sleep(1)
+            page.started()
+
+        command(page, "velocity verlet")
+        wait_for(page, "the method", lambda now: now["preset"]["solver"]["integrator"] == "velocity_verlet")
+        reload()
+        assert report(page)["preset"]["solver"]["integrator"] == "velocity_verlet", report(page)["preset"]["solver"]
+        page.call("Page.navigate", url=f"{self.home}/?report&lab=06_float")
+        time.sleep(1)
+        page.started()
+        press(page, "top.play")
+        wait_for(page, "the step is done", lambda now: now["lab"] and now["lab"]["done"])
+        press(page, "lab.Next")
+        wait_for(page, "the next step", lambda now: now["lab"]["step"] == 1)
+        page.wait("location.search.includes('step=2')")
+        page.call("Page.close")
+        page = self.open("?report&lab=01_hooke&step=3")
+        assert wait_for(page, "a step", lambda now: now["lab"])["lab"]["step"] == 2
+        reload()
+        assert wait_for(page, "it again", lambda now: now["lab"])["lab"]["step"] == 2
+        page.call("Page.close")
+
+    def test_clipboard_refused(self):
+        page = self.open("?report#hanging&k_s=80", script="Document.prototype.execCommand = () => false;")
+        command(page, "copy link")
+        page.wait("document.getElementById('copy').open && document.getElementById('text').value.includes('k_s=80')")
+        self.shot(page, "copy")
+        page.key("Escape", "Escape", 27)
+        page.wait("!document.getElementById('copy').open")
+        assert not any("opied" in said for said in report(page)["messages"]), report(page)["messages"]
         page.call("Page.close")
 
     def test_files(self):
@@ -427,6 +466,64 @@ class Tests:
             time.sleep(0.05)
         page.touch("touchEnd")
         wait_for(page, "two fingers zoom", lambda now: now["camera"]["distance"] < 0.9 * before["distance"])
+        page.call("Page.close")
+
+    def test_two_fingers_press_nothing(self):
+        page = self.open("?report#hanging", width=1024, height=600, touch=True)
+        before = report(page)
+        for name in ["top.play", "constants.k_s.slider", "constants.k_s.value"]:
+            x, y, _ = place(report(page), name, 1024)
+            page.touch("touchStart", (x, y))
+            time.sleep(0.05)
+            page.touch("touchStart", (x, y), (x + 40, y))
+            for step in range(1, 6):
+                page.touch("touchMove", (x, y - 2 * step), (x + 40, y - 2 * step))
+                time.sleep(0.03)
+            page.touch("touchEnd")
+            time.sleep(0.5)
+        now = report(page)
+        assert now["preset"] == before["preset"] and now["paused"] == before["paused"] and not now["typing"], now["preset"]
+        # One finger alone scrolls what is a list.
+        x, y, _ = place(now, "constants.k_s.slider", 1024)
+        page.touch("touchStart", (x, y))
+        for step in range(1, 9):
+            page.touch("touchMove", (x, y - 10 * step))
+            time.sleep(0.05)
+        page.touch("touchEnd")
+        now = wait_for(page, "the column scrolls",
+                       lambda now: "constants.k_s.slider" not in now["controls"] or place(now, "constants.k_s.slider", 1024)[1] < y - 40)
+        assert now["preset"] == before["preset"], now["preset"]
+        page.call("Page.close")
+
+    def test_typing_by_touch(self):
+        page = self.open("?report#hanging", width=1024, height=768, scale=2, touch=True)
+
+        def tap(name):
+            x, y, _ = place(wait_for(page, name, lambda now: name in now["controls"]), name, 1024)
+            page.touch("touchStart", (x, y))
+            page.touch("touchEnd")
+
+        def entered(value):
+            page.key("Enter", "Enter", 13)
+            wait_for(page, f"k_s is {value}", lambda now: now["preset"]["forces"]["k_s"] == value)
+
+        def opened(taps):
+            for _ in range(taps):
+                tap("constants.k_s.value")
+                time.sleep(0.1)
+            wait_for(page, "a tap opens the number", lambda now: now["typing"])
+            page.wait("document.activeElement.tagName === 'INPUT'")
+
+        opened(1)
+        for text in ["8", "88"]:  # as a keyboard on the screen composes it
+            page.call("Input.imeSetComposition", text=text, selectionStart=len(text), selectionEnd=len(text))
+        page.call("Input.insertText", text="88")
+        entered(88)
+        opened(2)
+        page.call("Input.insertText", text="954")
+        page.ask("document.execCommand('delete')")  # deleteContentBackward
+        self.shot(page, "typing_by_touch")
+        entered(95)
         page.call("Page.close")
 
     def test_in_a_course_page(self):

@@ -21,7 +21,7 @@ constexpr PictureSize smallest_window{480, 320};
 
 struct Options {
   PresetArgument preset;
-  int frames = 0;
+  int frames = 0, lab_step = 0;
   std::string screenshot, time_report, session_report, color, effects, size, lab;
   bool no_panels = false;
 
@@ -38,6 +38,8 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
     throw UsageError("--session-report -: the report is rewritten continuously; name a file");
   const PictureSize size = options.size.empty() ? PictureSize{0, 0} : parse_size(options.size, smallest_window);
   if (!options.lab.empty()) load_lab(find_lab_file(options.lab));
+  if (options.lab.empty() && options.lab_step > 0)
+    throw UsageError("--lab-step: name the lab, as in --lab 03_stiffness");
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
   const std::vector<Output> outputs = options.outputs();
   check_outputs(outputs, scene.inputs());
@@ -58,7 +60,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (options.effects == "all") sandbox.effects = Effects::Mode::all;
   if (options.effects == "few") sandbox.effects = Effects::Mode::few;
   sandbox.color = field_called(options.color);
-  sandbox.lab = options.lab, sandbox.panels = !options.no_panels;
+  sandbox.lab = options.lab, sandbox.lab_step = options.lab_step, sandbox.panels = !options.no_panels;
   if (display_there()) return run_sandbox(sandbox);
   if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
   if (!options.lab.empty()) std::cerr << "--lab begins a lab in a window, so it is not begun.\n";
@@ -111,6 +113,9 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   program.add_option("--lab", options->lab, "Begin a lab, by its name in `tyglab labs`")
       ->type_name("NAME")
       ->check(not_empty());
+  program.add_option("--lab-step", options->lab_step, "Begin the lab at step N")
+      ->type_name("N")
+      ->transform(whole_number_between(1, 1'000));
   program.add_flag("--no-panels", options->no_panels, "Show the cloth alone, as Tab does");
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {

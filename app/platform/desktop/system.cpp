@@ -16,11 +16,15 @@ void hand_out(const std::filesystem::path&) {}
 void ask_for_file(const std::string&) {}
 void keep_files(const std::filesystem::path&) {}
 
+bool clipboard_took() {
+  return true;
+}
+
 std::string page_address() {
   return {};
 }
 
-void show_in_address(const std::string&, const std::string&, bool) {}
+void show_in_address(const std::string&, const std::string&, int, bool) {}
 
 const char* shader_version() {
   return "#version 330 core";

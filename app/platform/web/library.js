@@ -17,6 +17,7 @@ addToLibrary({
     kept: ['twnqr', 'twnqrijc'],
     buttons: [0, 2, 1, 3, 4],
     cursor: '',
+    took: true,  // the clipboard, what it was given last
     visited: false,  // the browser came to the address, by back, forward or a link, and the program follows
     workers: {},
     // Copies that have not begun, and the memory that they are given: in pieces, which come back. New memory costs a frame
@@ -176,6 +177,16 @@ addToLibrary({
       canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
       _tyglab_on_size(canvas.width, canvas.height, scale * larger, touch ? 6 * scale : 0);
     },
+    // What a reload or the end of the page would lose is kept. A reload opens the address of when it was asked for, so the
+    // tab remembers the present one (page.js).
+    leave: () => {
+      _tyglab_on_leave();
+      try {
+        sessionStorage.setItem('tyglab:address', location.href);
+      } catch (error) {
+        console.warn('Tyglab: this tab keeps nothing: ' + error.message);
+      }
+    },
     // A file of the person's, put where the program finds it: in the current folder, so that it is told of by its name, and
     // as a path, so that it is neither a link nor a shipped texture.
     take: async (file) => {
@@ -245,7 +256,7 @@ addToLibrary({
       canvas.addEventListener('pointerdown', tyglabPage.finger(0));
       canvas.addEventListener('pointermove', tyglabPage.finger(1));
       canvas.addEventListener('pointerup', tyglabPage.finger(2));
-      canvas.addEventListener('pointercancel', tyglabPage.finger(2));
+      canvas.addEventListener('pointercancel', tyglabPage.finger(3));
       for (const kind of ['touchstart', 'touchmove', 'touchend'])  // no mouse is made of them, and no page moves
         canvas.addEventListener(kind, (event) => {
           if (tyglabPage.used) event.preventDefault();
@@ -308,8 +319,13 @@ addToLibrary({
     tyglabPage.listenToFrame(canvas);
     tyglabPage.listenToPointer(canvas);
     tyglabPage.listenToKeys(canvas);
+    window.addEventListener('pagehide', tyglabPage.leave);
+    document.addEventListener('visibilitychange', () => {
+      if (document.hidden) tyglabPage.leave();
+    });
     canvas.addEventListener('webglcontextlost', () => {
       tyglabPage.lost = true;
+      tyglabPage.leave();
       _tyglab_on_sight(0);
       Module.lost?.();
     });
@@ -346,10 +362,28 @@ addToLibrary({
   },
   tyglab_first_frame: () => Module.firstFrame?.(),
 
+  // At once, and without asking: in frames, and on plain http, the newer clipboard is not there.
+  tyglab_copy__deps: ['$tyglabPage'],
   tyglab_copy: (text) => {
     const copied = UTF8ToString(text);
-    navigator.clipboard?.writeText(copied).catch(() => {});
+    let given = false;
+    const give = (event) => {
+      event.clipboardData.setData('text/plain', copied);
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      given = true;
+    };
+    document.addEventListener('copy', give, true);
+    try {
+      tyglabPage.took = document.execCommand('copy') && given;
+    } catch {
+      tyglabPage.took = false;
+    }
+    document.removeEventListener('copy', give, true);
+    if (!tyglabPage.took) Module.showText?.(copied);
   },
+  tyglab_clipboard_took__deps: ['$tyglabPage'],
+  tyglab_clipboard_took: () => Number(tyglabPage.took),
 
   // A text field takes keys, so a touch screen shows its keyboard: for a field of the page that nobody sees.
   tyglab_type_by_touch__deps: ['$tyglabPage'],
@@ -394,7 +428,7 @@ addToLibrary({
   // localStorage holds text: JSON as it is, and nothing large. It belongs to the page, whichever thread asks.
   tyglab_keep_files__proxy: 'sync',
   tyglab_keep_files: (folder) => {
-    if (typeof document === 'undefined' || Module.embedded) return;  // a course's page changes nothing
+    if (typeof document === 'undefined' || Module.embedded) return 1;  // a course's page changes nothing
     const keep = (path) => {
       for (const name of FS.readdir(path)) {
         const inside = path + '/' + name;
@@ -405,8 +439,10 @@ addToLibrary({
     };
     try {
       keep(UTF8ToString(folder));
+      return 1;
     } catch (error) {  // where storage is blocked its very name throws
       console.warn('Tyglab: nothing can be kept: ' + error.message);
+      return 0;
     }
   },
 
@@ -415,19 +451,26 @@ addToLibrary({
     return stringToUTF8(location.href.split(/[?#]/)[0], text, bytes);
   },
   tyglab_show_in_address__deps: ['$tyglabPage'],
-  tyglab_show_in_address: (link, lab, further) => {
-    const shown = UTF8ToString(link), played = UTF8ToString(lab), add = further && !tyglabPage.visited;
+  tyglab_show_in_address: (link, lab, step, further) => {
+    const shown = UTF8ToString(link), played = UTF8ToString(lab), at = played && step > 1 ? String(step) : '', add = further && !tyglabPage.visited;
     tyglabPage.visited = false;
     if (typeof history === 'undefined') return;
     const asked = new URLSearchParams(location.search);
     let search = location.search;
-    if ((asked.get('lab') || '') !== played) {
-      if (played) asked.set('lab', played);
-      else asked.delete('lab');
+    const values = Object.entries({lab: played, step: at});
+    if (values.some(([key, value]) => (asked.get(key) || '') !== value)) {
+      for (const [key, value] of values) {
+        if (value) asked.set(key, value);
+        else asked.delete(key);
+      }
       search = asked.size ? '?' + asked.toString().replace(/=(?=&|$)/g, '') : '';
     }
     if (shown === tyglabPage.shown && search === location.search) return;
-    tyglabPage.shown = shown;
-    history[add ? 'pushState' : 'replaceState'](null, '', location.pathname + search + shown);
+    try {
+      history[add ? 'pushState' : 'replaceState'](null, '', location.pathname + search + shown);
+      tyglabPage.shown = shown;
+    } catch (error) {  // in a sandboxed frame
+      console.warn('Tyglab: the address cannot follow: ' + error.message);
+    }
   },
 });

@@ -6,6 +6,7 @@
 #include "app/platform/gl/dialect.h"
 #include "app/platform/platform.h"
 #include "app/render/gl_objects.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 
@@ -69,18 +70,26 @@ void lower_own_priority() {}
 
 }  // namespace tyglab
 
-/// Called by app/platform/web/library.js: the canvas comes into sight or leaves it. Unseen frames are not made.
-extern "C" EMSCRIPTEN_KEEPALIVE void tyglab_on_sight(int seen) {
+// Called by app/platform/web/library.js.
+extern "C" {
+EMSCRIPTEN_KEEPALIVE void tyglab_on_leave() {
+  if (tyglab::present_loop()) tyglab::present_loop()->leave();
+}
+
+/// The canvas comes into sight or leaves it: unseen frames are not made.
+EMSCRIPTEN_KEEPALIVE void tyglab_on_sight(int seen) {
   seen != 0 ? emscripten_resume_main_loop() : emscripten_pause_main_loop();
+}
 }
 
 // Of app/platform/web/library.js.
 extern "C" {
+int tyglab_clipboard_took();
 void tyglab_hand_out(const char* file);
 void tyglab_ask_for_file(const char* endings);
-void tyglab_keep_files(const char* folder);
+int tyglab_keep_files(const char* folder);
 int tyglab_page_address(char* text, int bytes);
-void tyglab_show_in_address(const char* link, const char* lab, int further);
+void tyglab_show_in_address(const char* link, const char* lab, int step, int further);
 }
 
 namespace tyglab {
@@ -98,7 +107,12 @@ void ask_for_file(const std::string& endings) {
 }
 
 void keep_files(const std::filesystem::path& folder) {
-  tyglab_keep_files(folder.c_str());
+  if (tyglab_keep_files(folder.c_str()) == 0)
+    throw OutputError("The browser keeps nothing for this site: its storage is full or blocked");
+}
+
+bool clipboard_took() {
+  return tyglab_clipboard_took() != 0;
 }
 
 std::string page_address() {
@@ -108,8 +122,8 @@ std::string page_address() {
   return text;
 }
 
-void show_in_address(const std::string& link, const std::string& lab, bool further) {
-  tyglab_show_in_address(link.c_str(), lab.c_str(), further ? 1 : 0);
+void show_in_address(const std::string& link, const std::string& lab, int step, bool further) {
+  tyglab_show_in_address(link.c_str(), lab.c_str(), step, further ? 1 : 0);
 }
 
 }  // namespace tyglab

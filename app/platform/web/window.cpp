@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/base/fingers.h"
 #include "app/base/glfw_keys.h"
 #include "app/platform/gl/dialect.h"
-#include "app/platform/web/fingers.h"
 #include "app/render/gl_objects.h"
 
 // Of app/platform/web/library.js.
@@ -91,6 +91,8 @@ EMSCRIPTEN_KEEPALIVE void tyglab_on_size(int width, int height, float scale, flo
   it.width = width, it.height = height;
   if (it.queue == nullptr) return;
   it.queue->by_touch = around > 0;
+  it.queue->double_click_px = around > 0 ? 4 * around : 6 * scale;
+  it.fingers.slack = std::max(1.5f * around, 6.f);
   it.queue->anything = true;
   it.queue->scale_changed |= rescaled;
 }
@@ -117,7 +119,8 @@ EMSCRIPTEN_KEEPALIVE void tyglab_on_wheel(float x, float y) {
 }
 
 EMSCRIPTEN_KEEPALIVE void tyglab_on_finger(int id, int phase, float x, float y) {
-  canvas().fingers.on_finger(*canvas().queue, id, static_cast<tyglab::Fingers::Phase>(phase), {x, y});
+  canvas().fingers.on_finger(*canvas().queue, id, static_cast<tyglab::Fingers::Phase>(phase), {x, y},
+                             tyglab::window_time());
 }
 
 EMSCRIPTEN_KEEPALIVE void tyglab_on_focus(int focused) {
@@ -184,7 +187,9 @@ Window::~Window() {
   emscripten_webgl_destroy_context(parts_->context);
 }
 
-void Window::take_events(double) {}
+void Window::take_events(double) {
+  canvas().fingers.update(*canvas().queue, window_time());
+}
 
 /// The browser shows it once the turn is over.
 void Window::swap() {
@@ -261,6 +266,7 @@ void GuiBackend::begin_frame() {
   const double now = window_time();
   io.DeltaTime = float(std::clamp(now - std::exchange(last, now), 1e-4, 1.0));
   io.DisplaySize = ImVec2(float(canvas().width), float(canvas().height));
+  if (ImGui::GetFontSize() > 0) canvas().fingers.wheel_step = 5 * ImGui::GetFontSize();  // what Dear ImGui scrolls
   ImGui::GetStyle().TouchExtraPadding = ImVec2(canvas().around, canvas().around);
   tyglab_set_cursor(cursor_name(ImGui::GetMouseCursor()));
   tyglab_type_by_touch(io.WantTextInput ? 1 : 0);

@@ -42,7 +42,7 @@ void copy_as_options(Ui& ui) {
     }
   }
   ImGui::SetClipboardText(text.c_str());
-  ui.messages.note("Copied the constants as --set options.");
+  if (clipboard_took()) ui.messages.note("Copied the constants as --set options.");
 }
 
 /// Where copied links begin: the course's page, or the page that this runs in.
@@ -51,6 +51,7 @@ std::string link_address(const Ui& ui) {
 }
 
 void note_copied(Ui& ui, std::string what) {
+  if (!clipboard_took()) return;
   const std::string& texture = ui.session.requested_preset().texture;
   if (!texture.empty() && !is_shipped_texture(texture)) what += " Its own texture is not in it.";
   ui.messages.note(std::move(what));

@@ -37,6 +37,26 @@ inline bool typing_text() {
   return g.ActiveId != 0 && g.ActiveIdIsAlive == g.ActiveId && g.InputTextState.ID == g.ActiveId;
 }
 
+/// Whether the wheel would scroll what lies there, as it was drawn last; its scroll bar is dragged instead.
+inline bool scrolls_at(ImVec2 at) {
+  const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->Windows;
+  for (int n = windows.Size - 1; n >= 0; --n) {  // from the front
+    const ImGuiWindow* window = windows[n];
+    if (!window->Active || window->Hidden || !window->OuterRectClipped.Contains(at)) continue;
+    if ((window->Flags & ImGuiWindowFlags_NoMouseInputs) != 0) continue;
+    for (; window != nullptr; window = window->ParentWindow)
+      if (window->ScrollMax.y > 0 && (window->Flags & ImGuiWindowFlags_NoScrollWithMouse) == 0)
+        return window->InnerRect.Contains(at);
+    return false;
+  }
+  return false;
+}
+
+/// Selects all that stands in the text field which takes keys.
+inline void select_all_text() {
+  ImGui::GetCurrentContext()->InputTextState.SelectAll();
+}
+
 /// An OpenGL texture as Dear ImGui names it.
 inline ImTextureID texture(unsigned id) {
   return (ImTextureID)(std::intptr_t)id;

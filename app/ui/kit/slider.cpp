@@ -51,17 +51,20 @@ double stepped(const SliderScale& s, double value, double direction, int mods) {
   return slider_value(s, slider_position(s, value) + direction * step.by, step.digits);
 }
 
-void start_typing(SliderState& state, unsigned id, double value) {
+void start_typing(UiContext& ui, unsigned id, double value) {
+  SliderState& state = ui.slider;
   state.typing = id;
+  state.typing_since = ui.now;
   state.typing_starts = true;
   state.commit = state.cancel = false;
   state.refused.clear();
   std::snprintf(state.text, sizeof state.text, "%.10g", value);
 }
 
-/// Whether the last item, a number, was pressed so that it can be typed.
-bool wants_typing(const UiContext& ui) {
-  return (ImGui::IsItemActive() && ui.input.double_click) || (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl);
+/// Whether the last item, a number, was pressed so that it can be typed; by a finger once it is lifted (`tapped`).
+bool wants_typing(const UiContext& ui, bool tapped) {
+  return (ui.input.by_touch && tapped) || (ImGui::IsItemActive() && ui.input.double_click) ||
+         (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl);
 }
 
 /// Keys of the focused slider, as one result.
@@ -94,7 +97,7 @@ SliderResult take_keys(UiContext& ui, const SliderScale& scale, double value) {
         break;
       case GLFW_KEY_ENTER:
       case GLFW_KEY_KP_ENTER:
-        start_typing(state, ImGui::GetID("value"), value);
+        start_typing(ui, ImGui::GetID("value"), value);
         break;
       case GLFW_KEY_ESCAPE:
         state.focused = 0;
@@ -204,6 +207,9 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   ImGui::PopStyleVar();
   ImGui::PopFont();
   if (ImGui::IsItemActive()) state.typing_starts = false;
+  // Who taps twice wants to type, and not to place the cursor.
+  const bool again = ui.input.by_touch && ui.now - state.typing_since < double_click_time;
+  if (again && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) gui::select_all_text();
   // Enter counts once the text field has been shown all that was typed before it.
   const bool ended = (state.commit || state.cancel) && !ui.input.unread;
   const bool over = ended || (!state.typing_starts && !ImGui::IsItemActive());
@@ -302,12 +308,14 @@ SliderResult drag_cell(UiContext& ui, const char* id_text, const SliderScale& sc
     ImGui::PopID();
     return result;
   }
-  gui::press_area("cell", {width, height});
+  const bool pressed = gui::press_area("cell", {width, height});
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (wants_typing(ui)) {
-    start_typing(ui.slider, typing_id, value);
+  const bool still = std::sqrt(ImGui::GetIO().MouseDragMaxDistanceSqr[0]) < ui.theme.px(10);
+  if (wants_typing(ui, pressed && still)) {
+    ui.slider.dragged = 0;
+    start_typing(ui, typing_id, value);
   } else {
     result = take_drag(ui, scale, value, id, ui.theme.px(300), false, lo.x);
   }
@@ -340,10 +348,10 @@ SliderResult value_cell(UiContext& ui, const char* id_text, double value, std::s
     type_value(ui, value, width, height, name, unit, result);
     return result;
   }
-  gui::press_area(id_text, {width, height});
+  const bool pressed = gui::press_area(id_text, {width, height});
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
-  if (wants_typing(ui)) start_typing(state, id, value);
+  if (wants_typing(ui, pressed)) start_typing(ui, id, value);
   const ImFont& font = *ui.fonts.mono;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float inset = ui.theme.px(2);

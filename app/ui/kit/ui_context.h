@@ -32,6 +32,7 @@ struct SliderState {
   bool focused_seen = false;  ///< it was drawn in this frame
   unsigned typing = 0;        ///< its value is being typed
   bool typing_starts = false;
+  double typing_since = 0;              ///< s
   bool commit = false, cancel = false;  ///< Enter, Escape while typing
   char text[64] = "";
   std::string refused;  ///< what was typed last and not accepted: its field keeps the keys

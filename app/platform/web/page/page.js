@@ -1,10 +1,13 @@
 // Loads the program with its data, shows how far that is, and starts it as the page's address says:
 //   #hanging&k_s=100                      an experiment's constants
+//   ?lab=03_stiffness&step=2              a lab, at one of its steps
 //   ?embed&lab=03_stiffness               in a course's page: without what was kept, with a button that opens it whole
 //   ?embed&preset=flag&panels=0           likewise, the cloth alone
 const canvas = document.getElementById('canvas');
 const words = document.getElementById('words'), progress = document.getElementById('progress');
-const asked = new URLSearchParams(location.search), embedded = asked.has('embed'), alone = asked.get('panels') === '0';
+const embedded = new URLSearchParams(location.search).has('embed');
+follow_reload();
+const asked = new URLSearchParams(location.search), alone = asked.get('panels') === '0';
 document.body.classList.toggle('embedded', embedded);
 const program = may_share_memory() ? 'tyglab-threads' : 'tyglab';
 
@@ -88,6 +91,7 @@ function arguments_of_address() {
   if (location.hash.length > 1) words.push(location.href);
   else if (asked.get('preset')) words.push(asked.get('preset'));
   if (asked.get('lab')) words.push('--lab', asked.get('lab'));
+  if (asked.get('lab') && asked.get('step')) words.push('--lab-step', asked.get('step'));
   if (alone) words.push('--no-panels');
   if (asked.has('report')) words.push('--session-report', '/report.json');  // docs/session-report.md, for scripts and tests
   return words;
@@ -103,9 +107,9 @@ function show_bar(tyglab) {
   const bar = document.getElementById('bar'), whole = document.getElementById('whole');
   bar.hidden = false;
   document.getElementById('alone').hidden = !alone;
-  const others = new URLSearchParams(asked);
-  for (const key of ['embed', 'panels']) others.delete(key);
   const update = () => {
+    const others = new URLSearchParams(location.search);
+    for (const key of ['embed', 'panels']) others.delete(key);
     whole.href = location.pathname + (others.size ? '?' + others : '') + location.hash;
   };
   update();
@@ -155,6 +159,25 @@ function threads() {
   return 8 + 4 * (processors - 1);
 }
 
+/// A text that the clipboard did not take, to be copied by hand.
+function show_text(text) {
+  const dialog = document.getElementById('copy'), field = document.getElementById('text');
+  field.value = text;
+  dialog.showModal();
+  field.select();
+}
+
+/// A reload goes on with what was on the screen, which the address may not have said yet (library.js, leave).
+function follow_reload() {
+  try {
+    const left = sessionStorage.getItem('tyglab:address');
+    sessionStorage.removeItem('tyglab:address');
+    if (!embedded && left && performance.getEntriesByType('navigation')[0]?.type === 'reload') history.replaceState(null, '', left);
+  } catch (error) {
+    console.warn('Tyglab: this tab keeps nothing: ' + error.message);
+  }
+}
+
 async function start() {
   check_browser();
   const data = of_file('data.bin', fetched('data.bin').then((answer) => answer.arrayBuffer()));
@@ -177,6 +200,7 @@ async function start() {
     },
     print: (text) => console.log(text),
     printErr: (text) => { said += text + '\n'; console.log(text); },
+    showText: show_text,
     lost: () => end('The browser has taken the graphics away from this page, as it does when the driver restarts or too many pages ' +
                     'draw. Try again: the address holds your constants.'),
     firstFrame: () => {
@@ -194,6 +218,8 @@ async function start() {
   if (code_of_end) throw new Refusal(without_commands(said));
 }
 
+for (const kind of ['keydown', 'keyup', 'paste'])  // these are not the canvas's
+  document.getElementById('copy').addEventListener(kind, (event) => event.stopPropagation());
 start().catch((error) => {
   end(error instanceof Refusal ? error.message : 'Tyglab could not start: ' + error.message);
   if (!(error instanceof Refusal)) console.error(error);
