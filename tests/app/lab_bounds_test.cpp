@@ -168,7 +168,7 @@ TEST_CASE(
   CHECK(play.lab().record().answer < weight);
 }
 
-TEST_CASE("what a fall tears does not count as the F_max of a sheet at rest") {
+TEST_CASE("what a fall tears does not count as the F_max of a sheet at rest" * doctest::test_suite("slow")) {
   LabPlayer play = sheet_at_rest();
   run_from_start(play, {setting("F_max", 0.1)}, 3);
   CHECK(torn(play) >= 100);
