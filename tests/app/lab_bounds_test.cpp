@@ -36,7 +36,8 @@ void run_from_start(LabPlayer& play, const std::vector<std::string>& settings, d
   play.run(seconds);
 }
 
-TEST_CASE("a constant that a step asks for counts up to its bounds, and not beyond them") {
+TEST_CASE("a constant that a step asks for counts up to its bounds, and not beyond them" *
+          doctest::test_suite("slow")) {
   struct Case {
     const char* lab;
     int step;
@@ -135,7 +136,8 @@ double torn(LabPlayer& play) {
   return *observe(play.session(), "torn");
 }
 
-TEST_CASE("no F_max that is typed at once is confirmed: a value that holds and one that tears are measured") {
+TEST_CASE("no F_max that is typed at once is confirmed: a value that holds and one that tears are measured" *
+          doctest::test_suite("slow")) {
   for (const double F_max : {0.065, 0.085}) {
     CAPTURE(F_max);
     LabPlayer play = sheet_at_rest();
@@ -174,7 +176,7 @@ TEST_CASE("what a fall tears does not count as the F_max of a sheet at rest" * d
 }
 
 /// No other machine's rounding decides.
-TEST_CASE("what the motion measures lies well inside the bounds of the labs' checks") {
+TEST_CASE("what the motion measures lies well inside the bounds of the labs' checks" * doctest::test_suite("slow")) {
   struct Case {
     const char* lab;
     int step;
@@ -209,7 +211,8 @@ TEST_CASE("what the motion measures lies well inside the bounds of the labs' che
   }
 }
 
-TEST_CASE("gusts swing the sheet above the height that is asked for only near its own period") {
+TEST_CASE("gusts swing the sheet above the height that is asked for only near its own period" *
+          doctest::test_suite("slow")) {
   const auto highest = [](double period) {
     LabPlayer play = at_step("12_wind", 2);
     run_from_start(play, {setting("gust_period", period)}, 15);
