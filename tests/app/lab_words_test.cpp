@@ -57,8 +57,7 @@ TEST_CASE("the card says what is now, and of what is to be found no more than th
   play.predict("200");
   play.update();
   const std::string narrowed =
-      "k_s to within 5 %: a value at which the cloth "
-      "diverges, and one at which not in 0.5 s · ";
+      "k_s to within 5 %: a value at which the cloth diverges, and one at which not in 0.5 s · ";
   CHECK(play.card(0) == narrowed + "neither found yet");
   CHECK(play.card(2) == "Integrator: Verlet so far");
   play.set("k_s=300");

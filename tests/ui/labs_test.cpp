@@ -459,7 +459,7 @@ TEST_CASE("from a width of 1280 on a lab is a column beside a cloth of full heig
       const float scale = window.ui.theme.scale, width = float(size.x), height = float(size.y);
       const Viewport::Box cloth = window.ui.viewport.box;
       CHECK(window.ui.viewport.whole().x >= 0.45f * width);
-      CHECK(cloth.lo.y == std::round(48 * scale));
+      CHECK(cloth.lo.y <= 96 * scale);  // the bar and the view buttons
       CHECK(cloth.hi.y == height - std::round(30 * scale));
       CHECK(lab_size().x >= 360 * scale);
       CHECK(lab_size().x <= 400 * scale);
@@ -490,17 +490,19 @@ TEST_CASE("in a narrower window a lab takes at most 35 % of the height, and its 
     test::NullUi window(in(size));
     begin_lab(window.session, "03_stiffness");
     window.frames(4);
+    const LabPages& pages = window.ui.lab_pages;
     CHECK(lab_size().y <= 0.35f * float(size.y) + 1);
-    CHECK(window.drew("1 of "));
     CHECK(window.drew("The stiffer a cloth, the faster it can oscillate"));
+    CHECK((pages.count > 1) == window.sees("lab.page_on"));
     predict(window, "200");
     window.frames(2);
     CHECK(window.drew("Run, and raise k_s little by little"));  // the task comes into sight by itself
-    for (int n = 0; n < 9; ++n) window.click("lab.page_back");
+    CHECK((pages.count > 1 || size.x != 600));
+    while (pages.at > 0) window.click("lab.page_back");
     CHECK(window.drew("The stiffer a cloth, the faster it can oscillate"));
     window.move({float(size.x) / 2, float(size.y) - 60});
     window.wheel(-1);
-    CHECK(window.drew("2 of "));
+    CHECK(pages.at == std::min(1, pages.count - 1));
     window.session.labs.run->record().done = window.session.labs.run->show_explanation = true;
     window.frames(3);
     CHECK(window.drew("ω·dt = 2 with ω² = 8·k_s/m gives"));

@@ -95,8 +95,10 @@ void Ui::follow() {
   if (counts.lab_steps != seen_.lab_steps && session.labs.run) {
     // Begun at a later step, it lacks the card that one before has opened.
     show_for_lab(*this, lab_begins ? session.labs.run->shown() : session.labs.run->now().show);
-    show_what_to_change();
   }
+  // The step's preset may come frames after the step, and brings the constants back to their top.
+  if (session.labs.run && (counts.lab_steps != seen_.lab_steps || counts.documents != seen_.documents))
+    show_what_to_change();
   seen_ = counts;
   if (const auto question = std::exchange(session.question, std::nullopt)) {
     const bool unsaved = question->about == Question::About::unsaved_changes;
