@@ -43,7 +43,7 @@ std::string value_problem(const Row<T>& row, const T& object) {
           return {};
         } else if constexpr (std::is_same_v<Value, std::string>) {
           if (row.key == "integrator" && !is_integrator(value))
-            return "\"" + value + "\" is not an integrator" + did_you_mean(value, integrator_names(), ".") +
+            return "\"" + excerpt(value) + "\" is not an integrator" + did_you_mean(value, integrator_names(), ".") +
                    " Known: " + joined(integrator_names());
           return {};
         } else {
@@ -241,9 +241,9 @@ JsonNode setting_number(const std::string& key, const std::string& text, const R
   const char* end = text.data() + text.size();
   const auto [stop, error] = read_number(text.data(), end, node.number);
   if (error == std::errc::result_out_of_range && stop == end)
-    reader.fail(0, key, "'" + text + "' is too large or too small for a number");
+    reader.fail(0, key, "'" + excerpt(text) + "' is too large or too small for a number");
   if (text.empty() || error != std::errc{} || stop != end)
-    reader.fail(0, key, "'" + text + "' is not a number; write it like 1.5 or 2e-3");
+    reader.fail(0, key, "'" + excerpt(text) + "' is not a number; write it like 1.5 or 2e-3");
   node.type = text.find_first_of(".eE") == std::string::npos ? Type::integer : Type::number;
   return node;
 }

@@ -136,8 +136,8 @@ TEST_CASE("a body's JSON stands in a link without spaces, and of a long link the
   CHECK(link.find("bodies=[%7B%22shape%22:%22plane%22") != std::string::npos);
   const std::string much(40000, '1');
   for (const std::string& long_link :
-       {"#" + much, "#hanging&" + much, "#hanging&k_s=" + much, "#hanging&" + much + "=3",
-        "#hanging&integrator=" + much, "#hanging&name=" + much, "#hanging&bodies=" + much,
+       {"#" + much, "#hanging&" + much, "#hanging&k_s=" + much, "#hanging&k_s=." + much + "x",
+        "#hanging&" + much + "=3", "#hanging&integrator=" + much, "#hanging&name=" + much, "#hanging&bodies=" + much,
         "#hanging&bodies=[{\"" + much + "\":1}]", "#hanging&texture=" + much, "#hanging&" + much + "=%",
         "https://example.org/" + much, "https://example.org/?preset=" + much, "https://example.org/?lab=" + much})
     CHECK(problem_of(long_link).size() < 900);
