@@ -231,7 +231,7 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
   window.key(GLFW_KEY_A, GLFW_MOD_CONTROL);
   window.type("nonsense");
   window.key(GLFW_KEY_ENTER);
-  CHECK(window.said("“nonsense” is not an error"));
+  CHECK(window.said("“nonsense” is not a length"));
   CHECK_FALSE(search().has_value());
   window.click("plots.target");
   window.key(GLFW_KEY_A, GLFW_MOD_CONTROL);
@@ -329,8 +329,9 @@ TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it
 }
 
 TEST_CASE("the Energy card has the textbook's names, and says what a whole bar stands for") {
-  test::NullUi window(
-      {.preset = "one_weight", .with = [](Preset& preset) { preset.k = 10, preset.g = 0, preset.offset = 0.2; }});
+  test::NullUi window({.preset = "one_weight",
+                       .with = [](Preset& preset) { preset.k = 10, preset.g = 0, preset.offset = 0.2; },
+                       .size = {1600, 900}});
   window.pause();
   window.click("plots.Energy");
   window.frames(3);
@@ -339,7 +340,7 @@ TEST_CASE("the Energy card has the textbook's names, and says what a whole bar s
 }
 
 TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {
-  test::NullUi window(test::UiOptions{.preset = "hanging"});
+  test::NullUi window({.size = {1600, 1000}});
   window.until([&] { return window.t() > 0.3; }, "some motion");
   window.find("energy card");
   window.pause();

@@ -102,7 +102,7 @@ Balance CpuEngine<R, Present>::damping_balance() const {
   return judge({.left = square * lacking,
                 .largest = square * (solution + lacking),
                 .weight = weight_scale(p.g, p.dt),
-                .digits = last_digits(std::numeric_limits<R>::epsilon(), size, stiffness),
+                .digits = last_digits(std::numeric_limits<R>::epsilon(), size, stiffness - 1),  // of forces alone
                 .weightless = p.g == 0},
                balance_tolerance<R>);
 }
