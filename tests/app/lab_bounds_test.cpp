@@ -224,7 +224,8 @@ TEST_CASE("gusts swing the sheet above the height that is asked for only near it
   CHECK_FALSE(highest(0.8));
 }
 
-TEST_CASE("where a wind blows a sheet is judged by its height, and the answer is the wind that was measured") {
+TEST_CASE("where a wind blows a sheet is judged by its height, and the answer is the wind that was measured" *
+          doctest::test_suite("slow")) {
   LabPlayer play = at_step("12_wind", 0);
   run_from_start(play, {"W=[0,0,0.00075]"}, 12);
   CHECK_FALSE(play.done());
