@@ -32,12 +32,12 @@ void spell_pins_as_saved(Session& session) {
 /// What an edit asks for, worked out once before it is made.
 struct Plan {
   const Edit& edit;
-  const edit::Change* change;  ///< null: an edit of the cloth itself
-  EffectSet document;          ///< what it changes in the constants that are shown
-  EffectSet cloth;             ///< and in those of the cloth that moves, which differ while another one is being built
-  bool restarts, rebuilds;
-  bool grabs, cuts;  ///< a hand or a knife in the cloth
-  bool constants;    ///< it changes constants, at once
+  const edit::Change* change = nullptr;  ///< null: an edit of the cloth itself
+  EffectSet document{};                  ///< what it changes in the constants that are shown
+  EffectSet cloth{};  ///< and in those of the cloth that moves, which differ while another one is being built
+  bool restarts = false, rebuilds = false;
+  bool grabs = false, cuts = false;  ///< a hand or a knife in the cloth
+  bool constants = false;            ///< it changes constants, at once
 };
 
 Plan plan_of(const Session& session, const Edit& edit) {
