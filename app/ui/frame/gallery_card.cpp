@@ -75,16 +75,22 @@ CardShape card_shape(const Ui& ui, float width, bool beside) {
 }
 
 CardText card_text(const Ui& ui, const GalleryCard& card, const CardShape& shape) {
-  const ImFont &title = *ui.fonts.title, &small = *ui.fonts.text;
+  const ImFont& title = *ui.fonts.title;
   const float room = text_room(ui, shape);
   const std::string number = card.entry.number.empty() ? "" : card.entry.number + "  ";
-  CardText text{in_some_lines(title, number + card.entry.title, room, most_title_lines), {}, 0, false};
-  text.goal = has_problem(card) ? in_some_lines(small, card.problem, room, most_goal_lines)
-                                : goal_in_lines(small, card.entry.purpose, room);
-  text.whole = text.goal == in_lines(small, has_problem(card) ? card.problem : card.entry.purpose, room);
+  CardText text;
+  text.title = in_some_lines(title, number + card.entry.title, room, most_title_lines);
+  // In a narrow card a long goal is set smaller rather than shortened.
+  for (const ImFont* font : {ui.fonts.text, ui.fonts.small}) {
+    text.font = font;
+    text.goal = has_problem(card) ? in_some_lines(*font, card.problem, room, most_goal_lines)
+                                  : goal_in_lines(*font, card.entry.purpose, room);
+    if (!text.goal.ends_with("…")) break;
+  }
+  text.whole = text.goal == in_lines(*text.font, has_problem(card) ? card.problem : card.entry.purpose, room);
   if (shape.beside && !length_of(card).empty()) text.goal += "\n" + length_of(card);
   const float words = ui.theme.px(over_title + under_title + inset) + float(lines_in(text.title)) * title.FontSize +
-                      float(lines_in(text.goal)) * small.FontSize;
+                      float(lines_in(text.goal)) * text.font->FontSize;
   text.height = std::ceil(shape.beside ? std::max(words, shape.picture.y) : shape.picture.y + words);
   return text;
 }
@@ -108,7 +114,7 @@ void draw_gallery_card(Ui& ui, const GalleryCard& card, ImVec2 lo, const CardSha
                   (shape.beside ? lo.y : corner.y) + ui.theme.px(over_title)};
   draw_text(draw, title, at, c.text, text.title);
   const float under = at.y + float(lines_in(text.title)) * title.FontSize + ui.theme.px(under_title);
-  draw_text(draw, *ui.fonts.text, {at.x, under}, has_problem(card) ? c.warning : c.quiet, text.goal);
+  draw_text(draw, *text.font, {at.x, under}, has_problem(card) ? c.warning : c.quiet, text.goal);
   if (!shape.beside && !length_of(card).empty()) draw_length(ui, length_of(card), {hi.x, lo.y});
 }
 

@@ -149,7 +149,7 @@ void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
   field.seen = true;
   // It takes the keys in a frame after the one that asks for that.
   if (field.again) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(ui.theme.px(120));
+  ImGui::SetNextItemWidth(std::min(ui.theme.px(120), 0.4f * ImGui::GetContentRegionAvail().x));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
   ImGui::InputTextWithHint("##prediction", "your number", record.typed, sizeof record.typed,
                            field.again ? ImGuiInputTextFlags_AutoSelectAll : 0);

@@ -84,8 +84,9 @@ CardShape card_shape(const Ui& ui, float width, bool beside);
 /// What a card says, in lines of its width; nothing of it is cut but a goal of more than a few lines.
 struct CardText {
   std::string title, goal;
-  float height;  ///< px, of the card
-  bool whole;    ///< the goal is all that there is to say
+  const ImFont* font = nullptr;  ///< of the goal
+  float height = 0;              ///< px, of the card
+  bool whole = false;            ///< the goal is all that there is to say
 };
 CardText card_text(const Ui& ui, const GalleryCard& card, const CardShape& shape);
 
