@@ -119,7 +119,10 @@ void Session::step(double real_seconds, const SessionInput& input) {
   move_hand(*this, input.hand, due);
   pacing.budget_s = step_budget(costs, input.frame_time);
   make_steps(due, input);
-  if (!background_steps.busy() && !scripted) sleep.look(*simulation, input.touched || !copies.lockstep.empty());
+  // A step of a lab may measure for how long nothing happens.
+  const bool measures = labs.run && !labs.run->record().done;
+  if (!background_steps.busy() && !scripted)
+    sleep.look(*simulation, input.touched || !copies.lockstep.empty() || measures);
 }
 
 /// In pieces, so that a wrong guess of a step's cost cannot hold the window up.
