@@ -135,7 +135,7 @@ TEST_CASE("the menu of copies leaves most of the window in sight, under headings
 }
 
 TEST_CASE("the columns of the copies' card say what they hold") {
-  test::NullUi window;
+  test::NullUi window({.size = {1600, 900}});
   window.pause();
   window.click("plots.Copies");
   window.add_copy("Equal_copy");
@@ -258,7 +258,7 @@ TEST_CASE("in a low window the details of a copy have the view buttons' place wh
 }
 
 TEST_CASE("the names of overlaid cloths stand above them where the picture is narrow") {
-  test::NullUi window({.preset = "hanging", .settings = [](Settings& settings) { settings.theme = "projector"; }});
+  test::NullUi window({.size = {1600, 900}, .settings = [](Settings& settings) { settings.theme = "projector"; }});
   window.pause();
   window.click("plots.Copies");
   window.add_copy("Euler");
