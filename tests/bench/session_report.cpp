@@ -199,8 +199,8 @@ std::string_view name_of(Tool::Kind kind) {
 }
 
 std::string_view name_of(Dialog::Kind kind) {
-  static constexpr std::string_view names[] = {"none",    "start",   "open",    "save",       "write_export",
-                                               "texture", "picture", "unsaved", "large_cloth"};
+  static constexpr std::string_view names[] = {"none",    "start", "open",        "save",    "write_export", "texture",
+                                               "picture", "film",  "course_page", "unsaved", "large_cloth"};
   return names[std::size_t(kind)];
 }
 

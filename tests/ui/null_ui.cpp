@@ -24,7 +24,7 @@ namespace tyglab::test {
 namespace {
 
 constexpr std::chrono::seconds longest_wait{test::sanitized ? 60 : 100};  // far above what a loaded machine takes
-constexpr int settled = 3;                                                  // frames after which a layout stands still
+constexpr int settled = 3;                                                // frames after which a layout stands still
 
 /// Fonts of one scale, which all tests share: to build them takes longer than most tests.
 struct BuiltFonts {
