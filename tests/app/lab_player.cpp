@@ -53,8 +53,8 @@ void LabPlayer::run(double seconds) {
   const double end = session_.simulation->time() + seconds;
   session_.pacing.playing = true;
   constexpr int most_updates = 100000;  // a motion that waits for a prediction would wait forever
-  for (int n = 0; session_.pacing.playing && session_.simulation->time() < end &&
-                  !session_.simulation->divergence() && !done();
+  for (int n = 0;
+       session_.pacing.playing && session_.simulation->time() < end && !session_.simulation->divergence() && !done();
        ++n) {
     if (n == most_updates) FAIL("waited in vain for t = ", end, " s of step ", lab().step + 1);
     update(1.0 / 60);
