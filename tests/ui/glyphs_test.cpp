@@ -1,6 +1,7 @@
 // Every character of every shipped text has a glyph in the fonts: what has none is drawn as a question mark.
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -28,7 +29,9 @@ class GlyphCheck {
       const unsigned code = next(text, at);
       ++seen_;
       if (code < 0x20 || font_.FindGlyphNoFallback(ImWchar(code)) != nullptr || !missing_.insert(code).second) continue;
-      FAIL_CHECK("U+" << std::hex << code << " has no glyph: " << std::string(where) << ": " << std::string(text));
+      char hex[16];
+      std::snprintf(hex, sizeof hex, "U+%04X", code);
+      FAIL_CHECK(std::string(hex) << " has no glyph: " << std::string(where) << ": " << std::string(text));
     }
   }
   int seen() const { return seen_; }

@@ -48,6 +48,8 @@ constexpr ImWchar text_glyphs[] = {0x20,   0x17F,  0x370,  0x3FF,  0x1E8A, 0x1E8
                                    0x2190, 0x2195, 0x21BA, 0x21BB, 0x2200, 0x2265, 0x25A0, 0x25CF, 0};
 /// Numbers, their signs and units, and what may be typed into a field.
 constexpr ImWchar number_glyphs[] = {0x20, 0xFF, 0x370, 0x3FF, 0x2010, 0x2044, 0x2070, 0x209F, 0x221E, 0x221E, 0};
+/// Superscripts and subscripts: JetBrains Mono has no minus among them.
+constexpr ImWchar power_glyphs[] = {0x2070, 0x209F, 0};
 constexpr ImWchar symbol_glyphs[] = {0x20, 0x7E, 0x370, 0x3FF, 0x1E8A, 0x1E8D, 0};
 /// The program's own words.
 constexpr ImWchar plain_glyphs[] = {0x20, 0xFF, 0x2010, 0x2044, 0};
@@ -91,6 +93,15 @@ class Builder {
   }
 
   bool has(const char* name) const { return files_.count(name) != 0; }
+
+  /// Adds to the font that was loaded last the glyphs that it lacks and the other has.
+  void complete(const char* name, float size, const ImWchar* glyphs) {
+    const auto it = files_.find(name);
+    if (it == files_.end()) return;
+    ImFontConfig config;
+    config.MergeMode = true;
+    ImGui::GetIO().Fonts->AddFontFromFileTTF(it->second.string().c_str(), std::round(size * scale_), &config, glyphs);
+  }
 
  private:
   const fs::path* choose(const char* name, const char* fallback) {
@@ -137,6 +148,7 @@ Fonts build_fonts(float scale, float axis) {
                    ? builder.load("Inter-Regular.otf", "DejaVuSans.ttf", axis / scale, number_glyphs)
                    : fonts.small;
   fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13, number_glyphs);
+  builder.complete("Inter-Regular.otf", 13, power_glyphs);
   if (!builder.has("forkawesome-webfont.ttf"))
     fonts.notes.push_back(
         "font forkawesome-webfont.ttf not found; buttons show words instead of icons "
