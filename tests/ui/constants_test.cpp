@@ -191,7 +191,7 @@ TEST_CASE("a click anywhere on a message takes it away") {
   window.type_value("k_s", "abc");
   REQUIRE_FALSE(window.session.messages.list().empty());
   CHECK(window.drew("“abc” is not a number"));
-  window.click("viewport.dismiss");
+  window.click("message.dismiss");
   CHECK(window.session.messages.list().empty());
   CHECK(window.torn() == 0);
 }

@@ -150,21 +150,26 @@ TEST_CASE("PAUSED stands clear of the one weight's spring" * doctest::may_fail()
   }
 }
 
-TEST_CASE("a message covers no cloth where a corner is free, and stays in its corner") {
+TEST_CASE("a message stands on the status line, outside the picture, and a long one reaches up over its edge") {
   test::NullUi window(options({{1280, 720}, 1, "dark"}, "hanging"));
   pause(window);
   window.session.messages.note("Saved.");
   window.frames(3);
-  const Box first = window.control("viewport.dismiss");
-  CHECK(covered(first, drawn_parts(window.ui)) == 0);
-  CHECK(first.hi.x - first.lo.x < 200);  // no wider than its text
-  window.session.messages.note("This one has many more words than the one above it, and therefore needs more room.");
+  const Box brief = window.control("message.dismiss");
+  CHECK(brief.lo.y >= window.ui.viewport.box.hi.y);
+  CHECK(brief.hi.y == 720);
+  std::string many_words = "This one has many more words than the one above it, and needs more room. ";
+  window.session.messages.note(many_words + many_words + many_words);
   window.frames(3);
-  const Box wider = window.control("viewport.dismiss");
-  CHECK(wider.lo.x == first.lo.x);
+  const Box high = window.control("message.dismiss");
+  CHECK(high.hi.y == 720);
+  CHECK(high.lo.y < window.ui.viewport.box.hi.y);
+  CHECK(high.lo.y > window.ui.viewport.box.hi.y - 40);
+  for (const auto& mark : window.ui.placing.marks())
+    if (mark.name != "message") CHECK_FALSE(overlap(mark.box, high));
 }
 
-TEST_CASE("messages that would cover the cloth together follow one another, and none is lost") {
+TEST_CASE("messages follow one another, the most severe first, and none is lost") {
   test::NullUi window(
       {.preset = "hanging", .size = {900, 600}, .settings = [](Settings& settings) { settings.ui_scale = 1.5; }});
   pause(window);
@@ -178,13 +183,12 @@ TEST_CASE("messages that would cover the cloth together follow one another, and 
   CHECK(window.drew("A note that needs"));
   window.until([&] { return window.session.messages.list().empty(); }, "the note to have been read");
 
-  test::NullUi roomy(options({{1920, 1080}, 1, "dark"}, "hanging"));
-  pause(roomy);
-  roomy.session.messages.note("One.");
-  roomy.session.messages.note("Two.");
-  roomy.frames(3);
-  CHECK(roomy.drew("One."));
-  CHECK(roomy.drew("Two."));
+  window.session.messages.note("One.");
+  window.session.messages.note("Two.");
+  window.frames(3);
+  CHECK(window.drew("Two."));
+  CHECK(window.drew("+1"));  // how many wait
+  CHECK_FALSE(window.drew("One."));
 }
 
 TEST_CASE("labels and scales of arrows make room for a tooltip, however low the window") {
@@ -222,7 +226,7 @@ TEST_CASE("a message and PAUSED stand apart") {
     window.pause();
     window.type_value("k_s", "abc");
     REQUIRE_FALSE(window.session.messages.list().empty());
-    CHECK_FALSE(overlap(window.control("viewport.dismiss"), *window.ui.placing.find("paused")));
+    CHECK_FALSE(overlap(window.control("message.dismiss"), *window.ui.placing.find("paused")));
   }
 }
 

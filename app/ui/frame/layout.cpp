@@ -223,6 +223,9 @@ void draw_layout(Ui& ui, ImVec2 window) {
   if (plan.plots.size.x > 0) plots_panel(ui, plan.plots);
   if (plan.status.size.y > 0) status_bar(ui, plan.status);
   if (plan.podium.size.y > 0) podium(ui, plan.podium);
+  const Region no_status = viewport.size.x > 0 ? Region{{left, viewport.at.y + viewport.size.y}, {viewport.size.x, 0}}
+                                               : Region{{0, window.y}, {window.x, 0}};
+  message_line(ui, plan.status.size.y > 0 ? plan.status : no_status);
   const float top = plan.top.size.y;
   if (left > 0 && viewport.size.x > 0) {
     const Region& side = plan.constants.size.x > 0 && plan.constants.at.x == 0 ? plan.constants : plan.plots;

@@ -94,6 +94,7 @@ void banner(Ui& ui, const Box& region);
 /// Height at the foot of a region of that size that is the banner's own, so that it covers no cloth, px; 0 while there
 /// is none.
 float banner_strip(Ui& ui, glm::vec2 region);
-void message_list(Ui& ui);
+/// The message that matters most, in front of the line at the foot of the window, and how many wait after it.
+void message_line(Ui& ui, const Region& foot);
 
 }  // namespace tyglab

@@ -35,7 +35,7 @@ std::string replay_words(const Ui& ui, float room) {
 std::array<std::optional<Box>, 12> pause_places(const Ui& ui, const Box& row, glm::vec2 full, glm::vec2 brief) {
   const OverlayLayout& placing = ui.placing;
   const float margin = ui.theme.px(16);
-  const Box below{{row.lo.x, ui.notes_from}, ui.viewport.box.hi - margin};
+  const Box below{{row.lo.x, ui.marks_from}, ui.viewport.box.hi - margin};
   const auto free = ui.viewport.free_place(ui.session.copies.tiles());
   const auto in = [&](const Box& area, glm::vec2 size, ScreenCorner corner) {
     return placing.in_corner(area, size, corner);

@@ -122,12 +122,13 @@ void pictures(Ui& ui, ImDrawList& draw) {
 /// What stands over the pictures. Who comes first has its place, and who comes later makes room; drawn the other way
 /// round, so that no arrow runs over a number.
 void marks(Ui& ui, ImDrawList& draw, const Region& region) {
-  enum Layer : int { arrows, pointer, fixed, notes, count };
+  enum Layer : int { arrows, pointer, fixed, count };
   const bool bare = ui.picture && !ui.picture->whole_window;
   const float margin = ui.theme.px(16), top = region.at.y + ui.theme.px(12);
   const Box row{{region.at.x + margin, top}, {region.at.x + region.size.x - margin, top + ui.theme.px(26)}};
   // In a picture that is saved the legend stands as it was shown.
   bare ? ui.placing.back_to("legend") : ui.placing.begin(ui.theme.px(6));
+  if (ui.message_box) ui.placing.take("message", *ui.message_box);
   draw.ChannelsSplit(count);
   draw.ChannelsSetCurrent(fixed);
   const bool covered = ui.banner_over_views || (ui.copy_details && ui.copy_details->over_views);
@@ -142,9 +143,6 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   }
   color_legend(ui);
   if (!bare) {
-    draw.ChannelsSetCurrent(notes);
-    message_list(ui);
-    draw.ChannelsSetCurrent(fixed);
     const glm::vec2 lo(region.at.x, region.at.y), hi = lo + glm::vec2(region.size.x, region.size.y);
     banner(ui, {lo, hi});
     copy_details(ui, {lo, {hi.x, hi.y - banner_strip(ui, hi - lo)}});
@@ -180,7 +178,7 @@ void viewport_panel(Ui& ui, const Region& region) {
   ui.viewport.foot = names_below_height(ui);
   constexpr float usual = 0.84f, presented = 0.94f;
   ui.viewport.filled = ui.presenting ? presented : usual;
-  ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
+  ui.marks_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.covers.clear();
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();

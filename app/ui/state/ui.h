@@ -232,10 +232,10 @@ struct Ui : UiContext {
   bool presented_card = true;        ///< whether that card is there
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
   std::optional<CopyDetails> copy_details;
-  std::optional<std::size_t> pause_place, legend_place, notes_place;  ///< which of their places those marks took last
-  bool banner_over_views = false;        ///< it needs the view buttons' place: they are not there
-  bool one_note = false;                 ///< several messages would cover the cloth: they follow one another
-  float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
+  std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
+  bool banner_over_views = false;                        ///< it needs the view buttons' place: they are not there
+  std::optional<Viewport::Box> message_box;              ///< of the message that was shown last frame, pixels
+  float marks_from = 0;                  ///< y from which marks may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are checked, at the picked particle
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
   bool constants_to_top = false;         ///< another preset was taken: its constants are shown from the first one on
