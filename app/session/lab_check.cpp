@@ -58,8 +58,10 @@ std::string value_in_words(Session& session, const std::string& name) {
   if (name == "untouched") return touched_by(session);
   if (is_word(name)) return shown_word(name, observe_word(session, name));
   const auto value = observe(session, name);
-  if (const PresetRow* row = find_row(name); row != nullptr && row->zero_is_off && value == 0.0) return "off";
-  return value ? with_unit(*value, unit_of(name)) : std::string();
+  if (!value) return {};
+  const PresetRow* const row = find_row(name);
+  if (row == nullptr) return quantity(*value, unit_of(name));  // it was measured
+  return row->zero_is_off && *value == 0 ? "off" : with_unit(*value, unit_of(name));
 }
 
 void remember(Session& session, const Condition& check, bool holds, CheckMemory& memory) {

@@ -158,9 +158,11 @@ void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
   if (ImGui::IsItemActive()) field.again = false;
   const bool in_field = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
-  wrapped(ui, asked.unit, ui.theme.colors.quiet);
-  if (!asked.unit.empty()) ImGui::SameLine();
+  if (!asked.unit.empty()) {
+    ImGui::AlignTextToFramePadding();
+    wrapped(ui, asked.unit, ui.theme.colors.quiet);
+    ImGui::SameLine();
+  }
   const bool enter = field.enter && in_field && !ui.input.unread;
   if (text_button(ui, "Predict", true, record.typed[0] != 0) || enter) take_prediction(ui, asked, record);
 }
