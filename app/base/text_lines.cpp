@@ -50,7 +50,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> fingers_
     {"R brings it back there", "Restart brings it back there"},
     {"Hold the left button and drag across the sheet",
      "Choose Cut with one finger in the menu, and draw across the sheet"},
-    {"Press W to see the wind's arrow, and drag its tip towards the far side of the sheet: Shift drags in depth, Ctrl "
+    {"Press W to see the wind's arrow, and drag its tip toward the far side of the sheet: Shift drags in depth, Ctrl "
      "along one axis. Or type W's third number.",
      "Type W's third number, the wind along z."},
     {"Ctrl+L lists all labs", "The cap at the top lists all labs"},
