@@ -100,7 +100,7 @@ TEST_CASE("the finder says how far it is, what it found, and what can be promise
   const auto words = [&](double tolerance) { return finder_words(search, tolerance, search.of); };
   CHECK(words(1e-3).find("over the 1 s from t = 0 s") != std::string::npos);
   CHECK(words(1e-3).find("whole second") == std::string::npos);
-  CHECK(words(1e-5).find("The tightest tolerance that can be promised is 2e-4 m.") != std::string::npos);
+  CHECK(words(1e-5).find("The tightest tolerance that can be guaranteed is 2e-4 m.") != std::string::npos);
   CHECK(words(1e-6).find("differ by 1e-6 m") != std::string::npos);
   search.present = point("euler", 3e-3, 0.2);
   CHECK(words(1e-3).find(" Now: error 0.003 m") != std::string::npos);
