@@ -127,7 +127,7 @@ void watch_replay(Session& session) {
   if (passed && !left && !diverged) {
     session.pacing.playing = false;
     session.messages.note(
-        "This time it did not diverge: going back starts the method again from positions and velocities.");
+        "The motion did not diverge this time: a replay restarts the method from positions and velocities.");
   }
   session.pacing.restart_measure();
   session.replay.reset();
