@@ -1,5 +1,5 @@
 // Translates fingers on a touch screen into mouse buttons: one finger grabs what is under it, two rotate and zoom the
-// view; over panels one finger presses, or scrolls what scrolls. A press counts only once it is known to be one
+// view; over panels, one finger presses or scrolls. A press counts only once it is known to be one
 // finger's, so a gesture of two fingers is never a click as well.
 #pragma once
 

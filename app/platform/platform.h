@@ -1,4 +1,4 @@
-// What each system does in its own way: linux/, windows/ (both with desktop/) and web/ implement it.
+// Functions that differ between systems: linux/, windows/ (both with desktop/) and web/ implement them.
 #pragma once
 
 #include <filesystem>

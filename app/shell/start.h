@@ -1,4 +1,5 @@
-// The start of a window: settings, options, the first cloth and its picture; and what the window saves for the next.
+// The start of a window: settings, options, the first cloth and its picture; and the state that the window saves for
+// the next start.
 #pragma once
 
 #include <memory>

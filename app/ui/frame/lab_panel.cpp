@@ -1,5 +1,5 @@
-// The current lab, in a column beside the cloth or, in a window that is narrower, in a strip below it: what to read, to
-// predict and to do, what is checked and why. Nothing scrolls: what has no room stands on further pages.
+// The current lab, in a column beside the cloth or, in a narrower window, in a strip below it: text, prediction, task,
+// checks and explanation. Nothing scrolls; text that does not fit continues on further pages.
 #include <algorithm>
 #include <cmath>
 #include <string>
