@@ -56,10 +56,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> fingers_
     {"Ctrl+L lists all labs", "The cap at the top lists all labs"},
     {", in Ctrl+P, opens it", ", in the menu, opens it"},
     {"Ctrl+Z then R", "Undo, then restart"},
-    {"Ctrl+Z undoes it", "Undo takes it back"},
-    {"Ctrl+Z undoes that", "Undo takes it back"},
+    {"Ctrl+Z undoes it", "Undo reverts it"},
+    {"Ctrl+Z undoes that", "Undo reverts it"},
     {" (Ctrl+P)", ", in the menu,"},
-    {"Space runs", "Run goes on"},
+    {"Space runs", "Run continues"},
 }};
 
 std::vector<std::string> split(std::string_view text, std::string_view at) {

@@ -75,7 +75,7 @@ bool take_constants_back(Session& session) {
   Preset then = session.simulation->diverged_preset(), now = session.requested_preset();
   then.mode = now.mode, then.engine = now.engine, then.device = now.device, then.precision = now.precision;
   if (!apply_edit(session, edit::Change{then})) return false;
-  session.messages.note("Constants set back to those that diverged: " + change_in_words(now, then) +
+  session.messages.note("Restored the constants that diverged: " + change_in_words(now, then) +
                         ". Ctrl+Z undoes that.");
   return true;
 }

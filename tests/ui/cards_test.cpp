@@ -275,7 +275,7 @@ TEST_CASE("a search for settings is stopped with the button that began it, and b
   CHECK(window.drew("Stopped"));
   CHECK_FALSE(watch.search()->done);
   window.click("plots.Find");
-  window.until([&] { return window.drew("First fine runs"); }, "the search to begin anew");
+  window.until([&] { return window.drew("First come fine runs"); }, "the search to begin anew");
   CHECK(watch.searching());
 }
 

@@ -334,8 +334,8 @@ void doing_part(Ui& ui, Pages& pages, const LabRun& run, bool turn) {
   if (cannot_be_done(ui.session))
     return marked_line(ui, pages, icon::warning, "!", c.warning,
                        first
-                           ? "This machine has no OpenCL device, so there is nothing to do here; predict, and read on."
-                           : "This machine has no OpenCL device, so there is nothing to do here; read on.",
+                           ? "This machine has no OpenCL device, so there is nothing to do here: predict, and read on."
+                           : "This machine has no OpenCL device, so there is nothing to do here: read on.",
                        c.text);
   if (first) return set_text(ui, pages, "Predict first; then the task appears here.", c.quiet);
   if (!record.done) task_part(ui, pages, step, turn);
@@ -387,7 +387,7 @@ void forward_button(Ui& ui, LabRun& run, bool can) {
     tooltip(ui, gui::item_id(),
             std::string(run.to_be_predicted() ? "Once the prediction is made and the checks hold; "
                                               : "Once the checks hold; ") +
-                (last ? "× leaves the lab before that, and keeps your progress" : "Skip goes on without that"));
+                (last ? "× leaves the lab before that, and keeps your progress" : "Skip continues without that"));
   if (go) last ? ui.command("leave_lab") : enter_step(ui.session, run.step + 1);
 }
 
