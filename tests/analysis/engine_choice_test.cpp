@@ -26,7 +26,7 @@ TEST_CASE("the quickest engine is chosen, the CPU's where it is nearly so, and t
   CHECK(
       quick.why ==
       "OpenCL on a device: 0.25 ns per particle and step in this scene, compared with 0.3 ns with OpenCL on a device, "
-      "measured on an earlier run");
+      "measured in an earlier run");
   const EngineChoice alone = choose_among({cpu(1), device(0, 0, "it has not enough memory")}, true);
   CHECK(alone.engine == EngineKind::cpu);
   CHECK(alone.why == "the CPU engine, since no other engine runs this scene: it has not enough memory");
