@@ -195,20 +195,13 @@ async function start() {
   show('Starting…');
   let said = '';
   const tyglab = await createTyglab({
-    canvas,
-    compiled,
-    embedded,
-    workerAddress: 'worker.js',
-    threads: threads(),
+    canvas, compiled, embedded, workerAddress: 'worker.js', threads: threads(),
     instantiateWasm: (imports, take) => {
       WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled));
       return {};
     },
     print: (text) => console.log(text),
-    printErr: (text) => {
-      said += text + '\n';
-      console.log(text);
-    },
+    printErr: (text) => { said += text + '\n'; console.log(text); },
     showText: show_text,
     lost: () => end(
         'The browser has withdrawn graphics from this page, as happens when the driver restarts or too many pages ' +
