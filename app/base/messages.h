@@ -23,7 +23,7 @@ class Messages {
  public:
   static constexpr std::size_t most = 3;
 
-  /// Shows a text without allocating memory, which may be short at that time.
+  /// Reserves memory for the list, since memory may be short when a message is due.
   Messages() { list_.reserve(most + 1); }
 
   void note(std::string text) { add(Message::Severity::note, std::move(text)); }
@@ -33,7 +33,7 @@ class Messages {
   /// A folder whose name means nothing to the user, such as the page's home: messages name only the files in it.
   std::string unnamed;
 
-  /// Removes all messages, which no longer apply.
+  /// Withdraws a message that no longer applies.
   void take_back(const std::string& text) {
     std::erase_if(list_, [&](const Message& m) { return m.text == text; });
   }

@@ -30,7 +30,7 @@ struct ToolSettings {
   bool operator==(const ToolSettings&) const = default;
 };
 
-/// The preset of the last session, with unsaved changes.
+/// The preset of the last session, including unsaved changes.
 struct LastSession {
   Preset preset;
   Preset saved;  ///< as it was opened or saved; a user's file is read again
@@ -77,7 +77,7 @@ void save_settings(const Settings& settings, const Settings& known);
 std::filesystem::path program_file();
 /// The path that starts this program again, even if its file has been replaced since.
 std::string this_program_again();
-/// The folder of its data files, for a program in that folder.
+/// The folder of the data files of a program that lies in `folder`.
 std::filesystem::path data_folder_beside(const std::filesystem::path& folder);
 /// Its run time, s.
 double program_age_s();

@@ -162,7 +162,7 @@ class ClothRenderer {
   const Bounds& bounds() const;
   /// Size of the buffers that grow with the cloth, including memory lent to siblings' engines.
   std::size_t bytes() const;
-  /// The scene drawn last.
+  /// The picture drawn last.
   Image pixels() const;
 
  private:

@@ -72,7 +72,7 @@ class ClothColors {
 bool light_ground(const Scene& scene);
 /// Why the cloth cannot be colored by that field now, a sentence; empty if it can.
 std::string why_not_colored(const Scene& scene, ParticleField field);
-/// The field that colors the cloth at present; null if none does.
+/// The field and scale that color the cloth at present; null if none do.
 const FieldColors* shown_colors(const Scene& scene);
 /// The field after the present one that can be shown, or after the last none.
 std::optional<ParticleField> next_field(const Scene& scene);
