@@ -30,8 +30,8 @@ struct TriedStep {
   bool unstable = false;  ///< beyond_stability()
 };
 
-/// E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, II.4, with its stabilising
-/// exponent β = 0.04. In plain numbers, so that an engine can keep a copy.
+/// E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, II.4, with its stabilizing exponent
+/// β = 0.04. In plain numbers, so that an engine can keep a copy.
 class StepControl {
  public:
   static constexpr double shortest_part = 1e-4;  ///< of dt: a step is not made shorter

@@ -12,7 +12,7 @@
 namespace tyglab {
 
 /// The worst-case limit: largest dt at which the method is stable for any configuration of the cloth, by its
-/// linearisation (worst_modes); 0 where no dt is. From the method's own table (modes.h). One-sided springs switch, so
+/// linearization (worst_modes); 0 where no dt is. From the method's own table (modes.h). One-sided springs switch, so
 /// the limit is a guide, not a guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
 
