@@ -13,9 +13,9 @@ void restart(Session& session);
 /// Goes back one second; the plots discard later samples, and the history discards later actions that changed the
 /// motion. False if no earlier state is stored.
 bool rewind(Session& session);
-/// Goes back by that simulated time, s, or as far as states are stored; there must be one (Rewind::before).
+/// Goes back to a snapshot of the cloth (Rewind::before).
 void go_back(Session& session, const Snapshot& then);
-/// The same, with a message about constants that were changed after that moment and stay.
+/// As rewind(), with a message about constants that were changed after that moment and stay.
 bool rewind_and_say_what_stays(Session& session);
 /// Restores earlier constants. An automatic dt stays automatic only if it would be chosen for them.
 bool take_back(Session& session, const Preset& preset);
