@@ -66,7 +66,7 @@ std::optional<DetailsPlan> plan_details(Ui& ui, glm::vec2 region) {
   DetailsPlan plan{.pieces = {piece(title, c.text, capitalised(name_of_cloth(ui.session, copy)) + " diverged",
                                     inner - ui.theme.px(details_close_at_1)),
                               piece(text, c.text, details.happened, inner), piece(text, c.quiet, details.why, inner),
-                              piece(text, c.quiet, "The others continue; R restarts all of them.", inner)}};
+                              piece(text, c.quiet, "The others go on; R restarts all of them.", inner)}};
   plan.size = {width, 2 * padding - gap};
   for (const Piece& part : plan.pieces) plan.size.y += part.height() + gap;
   plan.strip = plan.size.y + 2 * ui.theme.px(details_margin_at_1) <= most_of_it * region.y;
