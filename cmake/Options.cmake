@@ -9,9 +9,11 @@ target_compile_options(tyglab_options INTERFACE -fno-math-errno -fno-trapping-ma
 # GCC warns falsely about std::string concatenation (its bug 105651, GCC 12) and about the members of a std::variant
 # that it does not hold (GCC 14).
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
-# Clang sees names of other files of a batch (TYGLAB_BATCHES) as hidden; on 32 bits sizes of files are longer than others.
+# Clang sees names of other files of a batch (TYGLAB_BATCHES) as hidden, and std::stable_sort of GCC 12's library calls
+# what that library itself deprecates; on 32 bits sizes of files are longer than others.
+target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow;-Wno-deprecated-declarations>)
 if("web" IN_LIST TYGLAB_PLATFORM)
-  target_compile_options(tyglab_options INTERFACE -Wno-shadow -Wno-shorten-64-to-32)
+  target_compile_options(tyglab_options INTERFACE -Wno-shorten-64-to-32)
 endif()
 # GCC's own memory is looked through for garbage less often: a tenth of its time, for 200 MB more of memory.
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
