@@ -32,6 +32,11 @@ std::string stopped_early(const SolveCounts& solves, std::int64_t steps);
 /// Whether steps of an implicit method did not converge, and what to do, likewise.
 std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& preset);
 
+/// Whether rounding positions to the preset's precision changes the force of a spring by more than F_max, so that it
+/// tears by that, or by more than implicit steps can balance, and what to do: likewise. It is known before the first
+/// step.
+std::string precision_too_coarse(const Preset& preset);
+
 /// What linear theory says of the method at the preset's dt, as the cause of a divergence (zones.h): words that go on
 /// after a colon.
 std::string method_to_blame(const Preset& preset);
