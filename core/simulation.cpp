@@ -443,15 +443,20 @@ void Simulation::diverge(const AdvanceResult& part) {
 }
 
 Snapshot Simulation::snapshot() {
-  return {lattice_, preset_.kind,           read(),       tears_,     time(), steps_, untouched_,
-          preset_,  engine_->held_motion(), steps_at_dt_, time_at_dt_};
+  return {lattice_,     preset_.kind, read(),
+          tears_,       time(),       steps_,
+          untouched_,   preset_,      engine_->held_motion(),
+          steps_at_dt_, time_at_dt_,  effective_preset_.W};
 }
 
 void Simulation::restore(const Snapshot& then) {
   assert(fits(then));
   // All that takes memory comes first.
   Tears tears = then.tears;
+  const bool repeats = then.held && changes(then.of, preset_).within(motionless);
   Preset gusty = in_gusts(preset_, then.t);
+  // What the method held then belongs to the wind of its last step, and learns of the next one's when that begins.
+  if (repeats) gusty.W = then.W;
   engine_->prepare(pinned_.size());
   if (watch_) energy();
   if (gusts(preset_)) engine_->set_preset(gusty, tears_);
@@ -466,7 +471,7 @@ void Simulation::restore(const Snapshot& then) {
   time_at_dt_ = then.t;
   untouched_ = then.untouched;
   engine_->load(then.state, tears_);
-  if (then.held && changes(then.of, preset_).within(motionless)) {
+  if (repeats) {
     engine_->go_on_from(*then.held);
     steps_at_dt_ = then.steps_at_dt, time_at_dt_ = then.time_at_dt;
   }

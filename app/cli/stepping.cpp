@@ -12,6 +12,7 @@
 #include "core/integrators/scheme.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 
@@ -80,6 +81,10 @@ Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& 
       timeline_{simulation.preset().dt},
       progress_(what) {
   simulation_.stop_when(InterruptGuard::interrupted);
+  if (const std::string coarse = precision_too_coarse(simulation.preset()); !coarse.empty()) {
+    std::cerr << "tyglab: " << coarse << '\n';
+    said_precision_ = true;
+  }
   if (!auto_dt) return;
   auto_.emplace();
   simulation_.enable_ledger(true);
@@ -111,7 +116,17 @@ void Stepper::advance_portion(std::int64_t step) {
   if (took < 0.025 && portion == portion_ && portion_ < 1'000'000) portion_ *= 2;
   if (took > 0.1 && portion_ > 1) portion_ /= 2;
   if (auto_) look_at_ledger();
+  look_at_precision();
   progress_.update(double(simulation_.steps()) / double(steps_));
+}
+
+/// Says with the first step that only more digits could solve what is in store.
+void Stepper::look_at_precision() {
+  const SolveCounts solves = simulation_.engine().solves();
+  if (said_precision_ || solves.rounded == 0) return;
+  said_precision_ = true;
+  progress_.clear();
+  std::cerr << "tyglab: " << solves_missed(solves, simulation_.steps(), simulation_.preset()) << '\n';
 }
 
 void Stepper::look_at_ledger() {

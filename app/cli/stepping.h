@@ -75,6 +75,7 @@ class Stepper {
  private:
   void advance_portion(std::int64_t step);
   void look_at_ledger();
+  void look_at_precision();
 
   Simulation& simulation_;
   std::int64_t steps_;
@@ -86,6 +87,7 @@ class Stepper {
   std::int64_t portion_ = 1;
   double seconds_ = 0;
   bool interrupted_ = false;
+  bool said_precision_ = false;  ///< that it is too coarse
 };
 
 }  // namespace tyglab

@@ -114,6 +114,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
     if (copies.lockstep.alive()) steps_made += copies_go_on(*this, pacing.due(real_seconds, dt));
     return;
   }
+  warn_of_precision();
   rewind.look(*simulation);
   const int due = up_to_stop(*this, pacing.due(real_seconds, dt));
   move_hand(*this, input.hand, due);
@@ -181,6 +182,13 @@ void Session::made_steps(int steps, double seconds, double dt) {
   pacing.made(steps, dt, seconds);
   pause_at_stop(*this);
   if (auto_dt && !simulation->divergence()) watch_dt(*this);
+}
+
+/// Before the steps whose motion it concerns.
+void Session::warn_of_precision() {
+  const std::string coarse = precision_too_coarse(preset());
+  if (!coarse.empty() && !warned_coarse) messages.warning(coarse);
+  warned_coarse = !coarse.empty();
 }
 
 void Session::warn_of(const AdvanceResult& advance) {

@@ -93,6 +93,7 @@ struct Session {
   int updates_unlooked = 0;                     ///< since the check for energy added by errors of the method
   std::optional<Preset> energy_warning_preset;  ///< the constants at the last such warning
   bool warned_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
+  bool warned_coarse = false;       ///< that the precision is too coarse for these constants, until it no longer is
   /// s of real time after which a step of an implicit method ends with what it has found; 0: no limit. It is of no
   /// preset, since the motion then depends on the machine.
   double step_limit = 0;
@@ -125,6 +126,7 @@ struct Session {
   void make_steps(int due, const SessionInput& input);
   void made_steps(int steps, double seconds, double dt);
   void warn_of(const AdvanceResult& advance);
+  void warn_of_precision();
 };
 
 // The only place that changes the cloth and its copies in the sandbox: edits, and their consequences in the

@@ -47,7 +47,6 @@ struct Measure {
 }  // namespace
 
 Balance judge(const StageForces& forces, double tolerance) {
-  constexpr double most_excused = 0.05;  // of the largest force: beyond that, last digits excuse nothing
   const auto [left, largest, weight, digits, weightless] = forces;
   if (!std::isfinite(left)) return {false, std::numeric_limits<double>::infinity()};
   if (weightless && std::max(left, largest) <= digits) return {true, 0};  // nothing acts
@@ -64,7 +63,7 @@ Balance balance_of(const StageView<R>& stage) {
   assert(stage.fixed.empty() || stage.fixed.size() >= std::size_t(stage.lattice.size()));
   assert(stage.tears.untorn() || stage.tears.lattice() == stage.lattice);
   const Measure<R> measure{stage, stage.h * stage.h / p.m};
-  double left = 0, change = 0, size = 0;  // of velocities, squared; of positions
+  double left = 0, change = 0, size = 0, speed = 0;  // the first two of velocities, squared
   for (int i = 0; i < stage.lattice.rows; ++i)
     for (int j = 0; j < stage.lattice.columns; ++j) {
       if (!stage.fixed.empty() && stage.fixed[std::size_t(i) * stage.lattice.columns + j]) continue;
@@ -73,16 +72,21 @@ Balance balance_of(const StageView<R>& stage) {
         const std::ptrdiff_t n = (3 * i + c) * stage.stride + j;
         const double r = double(stage.residual[n]), dv = double(stage.v[n]) - double(stage.c_v[n]);
         one_left += r * r, one_change += dv * dv;
-        size = std::max(size, std::abs(measure.x(i, j, c)));
+        size = std::max(size, std::abs(measure.x(i, j, c))), speed = std::max(speed, std::abs(double(stage.v[n])));
       }
       left = one_left <= left ? left : one_left;  // which a number that is none becomes
       change = std::max(change, one_change);
     }
-  const double k = p.kind == Kind::one_weight ? p.k : std::max(p.k_s, p.k_b);
+  const bool weight = p.kind == Kind::one_weight;
+  const Digits digits{.epsilon = std::numeric_limits<R>::epsilon(),
+                      .size = size,
+                      .way = stage.h * speed,
+                      .stiffness = measure.scale * (weight ? p.k : 8 * p.k_s + 4 * p.k_b),
+                      .damping = stage.h / p.m * (weight ? 1 : 8) * p.k_d};
   return judge({.left = stage.h * std::sqrt(left),
                 .largest = std::max(stage.h * std::sqrt(change), measure.largest_spring_force()),
                 .weight = weight_scale(p.g, stage.h),
-                .digits = last_digits(std::numeric_limits<R>::epsilon(), size, measure.scale * k),
+                .digits = last_digits(digits),
                 .weightless = p.g == 0},
                balance_tolerance<R>);
 }

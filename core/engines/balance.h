@@ -18,12 +18,20 @@ namespace tyglab {
 template <class R>
 constexpr double balance_tolerance = sizeof(R) == 8 ? 1e-6 : 1e-4;
 
-/// The smallest residual that a stored solution can have, m: the effect of the last digits of the positions on forces,
-/// for a cloth whose largest coordinate is `size`, m. `stiffness`: k h²/m of its stiffest springs. As everywhere here,
-/// forces are multiplied by h²/m.
-inline double last_digits(double epsilon, double size, double stiffness) {
-  assert(epsilon > 0 && !(size < 0) && !(stiffness < 0));
-  return 4 * epsilon * size * (1 + stiffness);
+/// What no solution can do better, m: how much rounding a state to its precision changes the force on a particle. Each
+/// spring's length is off by about a unit in the last place of its ends' coordinates, its force by k times that, and
+/// all of a particle's together by about six standard deviations of what such errors add up to; velocities likewise. As
+/// everywhere here, forces are multiplied by h²/m.
+struct Digits {
+  double epsilon;    ///< of the precision
+  double size;       ///< largest coordinate of a position, m
+  double way;        ///< h times the largest of a velocity, m
+  double stiffness;  ///< h²/m Σ k over the springs that a particle can have
+  double damping;    ///< h/m Σ k_d over them
+};
+inline double last_digits(const Digits& of) {
+  assert(of.epsilon > 0 && !(of.size < 0) && !(of.way < 0) && !(of.stiffness < 0) && !(of.damping < 0));
+  return of.epsilon * (of.size * of.stiffness + of.way * (1 + of.damping));
 }
 
 /// The weight of a particle, m: at least the one that it has on Earth, so that residuals have a scale where nothing
@@ -32,6 +40,10 @@ inline double weight_scale(double g, double h) {
   constexpr double on_earth = 9.82;  // m/s²
   return h * h * std::max(std::abs(g), on_earth);
 }
+
+/// What rounding may leave of the largest force in a step that still counts as solved. The shipped presets leave up to
+/// 0.02 in float with any implicit method; beyond this a motion is no longer that of the method, whatever the cause.
+inline constexpr double most_excused = 0.05;
 
 struct Balance {
   bool solved = false;
@@ -51,11 +63,11 @@ struct StageForces {
   double left;     ///< residual on a particle
   double largest;  ///< of a spring, or what changes the velocity of a particle
   double weight;   ///< weight_scale()
-  double digits;   ///< last_digits()
+  double digits;   ///< last_digits(), or 0 where these excuse nothing
   bool weightless;
 };
 /// The residual of a stage, and whether it counts as solved: below `tolerance`, or below the last digits where these
-/// are small compared with the largest force.
+/// are small compared with the largest force (most_excused).
 Balance judge(const StageForces& forces, double tolerance);
 
 /// A stage x = c_x + h v, v = c_v + h a(x, v), as an engine stores it: each array row by row, its x, then its y, then

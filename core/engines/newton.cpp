@@ -57,7 +57,6 @@ Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& count
   assert(rules.most >= 1 && rules.tolerance > 0 && rules.epsilon > 0 && rules.h > 0);
   const double first = stage.evaluate();
   ++counts.force_evaluations;
-  // A step that moves nothing by more than the last digits of a position cannot be bettered.
   const double last_digits = 4 * rules.epsilon * stage.start_size();
   bool direct = false;  // every stage tries again: a repeated step must give the same bits
   bool ended = first == 0;
@@ -69,8 +68,11 @@ Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& count
     if (stage.stops()) return {};
     ++counts.newton;
     const ImplicitStage::Step step = stage.step();
+    const double before = norm;
     norm = rules.most == 1 ? take_whole_step(stage, counts) : take_step(stage, step.slope, counts);
-    ended = norm <= rules.tolerance * first || rules.h * step.size <= last_digits;
+    // Velocities have more digits than the positions that they lead to: the residual may still fall.
+    const bool still = rules.h * step.size <= last_digits && norm > 0.5 * before;
+    ended = norm <= rules.tolerance * first || still;
   }
   return stage.balance();
 }

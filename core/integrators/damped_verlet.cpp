@@ -20,8 +20,7 @@ Scheme damped_verlet() {
       .keeps_displacement = false,
       .note = "Second order, also with damping. As stable as undamped Verlet, however strong the damping is.",
       .stability = "stable up to hω = 2, whatever the damping; symplectic without it",
-      .cost =
-          "one evaluation of the force and the products of one linear system with the constant matrix of the damping",
+      .cost = "one evaluation of the force and one linear system with the constant matrix of the damping",
       .formula =
           R"(This is Verlet's step with the mean of two velocities in the damping: $h' = h + dt\,(f(x) - )"
           R"(C\,\tfrac12(h + h'))$, $\;x' = x + dt\,h'$, where $h$ is the velocity between two steps, $f$ is $a$ )"
@@ -40,18 +39,20 @@ Scheme damped_verlet() {
           R"($|\xi| \le 1$ exactly if $\omega\,dt \le 2$. It makes no difference that damping and stiffness have )"
           R"(different modes, since $\omega^2$ and $c$ can be the Rayleigh quotients of the growing motion itself.
 
-*The linear system.* The eigenvalues of its matrix lie between 1 and $\kappa = 1 + 6\,dt\,k_d/m$, also with )"
-          R"(tears and pins, and Chebyshev iteration needs only these bounds. It computes no sums over the cloth, )"
-          R"(makes a number of products that does not depend on the motion, stores no factors (a band factor of a )"
-          R"(4096 × 4096 cloth would have $7 \cdot 10^{10}$ numbers), and gives identical bits for any number of )"
-          R"(threads. Two equal rounds of $n$ products leave the residual polynomial $(T_n(\cdot)/T_n(\cdot))^2 \ge )"
-          R"(0$. In every mode the computed $s$ can therefore only be smaller than the solution, as if the )"
+*The linear system.* The eigenvalues of its matrix lie between 1 and $\kappa = 1 + 6\,dt\,k_d/m$, also )"
+          R"(with tears and pins, and Chebyshev iteration needs only these bounds. It computes no sums over the )"
+          R"(cloth, makes a number of products that does not depend on the motion, stores no factors (a band factor )"
+          R"(of a 4096 × 4096 cloth would have $7 \cdot 10^{10}$ numbers), and gives identical bits for any number )"
+          R"(of threads. Two equal rounds of $n$ products leave the residual polynomial $(T_n(\cdot)/T_n(\cdot))^2 )"
+          R"(\ge 0$. In every mode the computed $s$ can therefore only be smaller than the solution, as if the )"
           R"(particles were heavier, which never makes the step less stable. $n$ is chosen so that the residual is )"
           R"(at most $10^{-6}$ in float and $10^{-12}$ in double (16 and 32 products at $\kappa = 5$), but is at )"
-          R"(most 500; steps that lack more than $10^{-6}$ of $s$ ($10^{-4}$ in float) are reported as unconverged. )"
-          R"(The mean of $a$ over each piece that nothing holds has the eigenvalue 1; where 500 products are not )"
-          R"(enough, this mean is removed from the right-hand side before the iteration and added to its result, so )"
-          R"(no common motion is slowed.)",
+          R"(most 500. Where 500 do not suffice, the matrix is factorized as a band, in double, if that takes no )"
+          R"(more than $5 \cdot 10^8$ multiplications (up to 125 × 125 particles); it is factorized again only after )"
+          R"(a change of $k_d$, $m$, $dt$, pins, hand or tears. In larger cloths $s$ is then too small; steps that )"
+          R"(lack more than $10^{-6}$ of $s$ ($10^{-4}$ in float) are reported as unconverged. The mean of $a$ over )"
+          R"(each piece that nothing holds has the eigenvalue 1; where 500 products do not suffice, it is taken from )"
+          R"(the right-hand side before the solution and added to its result, so no common motion is slowed.)",
       .sweeps = {{.position = x, .velocity = v, .velocity_dt_power = 0, .assignments = {{slope, {{a, 1, 0}}}}},
                  {.position = x,
                   .velocity = slope,

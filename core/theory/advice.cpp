@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -22,6 +23,26 @@ std::string seconds(double dt) {
   return quantity(dt, "s", 2);
 }
 
+/// What to do where rounding changes forces too much.
+std::string finer_precision(const Preset& p) {
+  return p.precision == Precision::float_ ? "Use double precision (--precision double)."
+                                          : "Use a smaller k_s or a larger m.";
+}
+
+/// One unit in the last place of the largest coordinate of a particle at the start, m.
+double last_digit(const Preset& p) {
+  const double width = p.initial_stretch * (p.columns - 1) * p.L / 2, height = p.initial_stretch * (p.rows - 1) * p.L;
+  const double tilt = p.tilt_deg * std::acos(-1.0) / 180;
+  const double size =
+      p.kind == Kind::one_weight
+          ? std::abs(p.x_0.y) + std::abs(p.offset)
+          : std::max({std::abs(p.x_0.x) + width, std::abs(p.x_0.y), std::abs(p.x_0.z),
+                      std::abs(p.x_0.y - height * std::sin(tilt)), std::abs(p.x_0.z + height * std::cos(tilt))});
+  const double epsilon =
+      p.precision == Precision::float_ ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+  return size > 0 ? epsilon * std::exp2(std::floor(std::log2(size))) : 0;
+}
+
 }  // namespace
 
 double stable_dt(const Preset& p, const std::string& integrator) {
@@ -36,9 +57,8 @@ double advised_dt(const Preset& p, const std::string& integrator) {
 std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
   if (inner.below_digits == 0 && inner.too_short == 0) return "";
   const std::string tolerance = "The tolerance " + quantity(p.tolerance, "m") + " is ";
-  const std::string precision = p.precision == Precision::float_ ? "float" : "double";
   if (inner.below_digits > 0)
-    return tolerance + "below what " + precision + " can resolve at these coordinates. Use " +
+    return tolerance + "below what " + std::string(name_of(p.precision)) + " can resolve at these coordinates. Use " +
            (p.precision == Precision::float_ ? "a larger one, or double precision." : "a larger one.");
   return tolerance +
          "not reached by the shortest inner steps, a ten-thousandth of dt: use a smaller dt or a larger "
@@ -57,9 +77,39 @@ std::string energy_in_excess(double excess, const Preset& p) {
          " " + sentence(method_to_blame(p)) + " " + advice(p);
 }
 
-std::string stopped_early(const SolveCounts& solves, std::int64_t steps) {
+namespace {
+
+/// "12 of 3,400 steps": those that have not converged.
+std::string of_steps(const SolveCounts& solves, std::int64_t steps) {
   steps = std::max(steps, solves.unconverged);  // a rewind takes steps back, but nothing of what the engine has counted
-  return grouped(solves.unconverged) + " of " + grouped(steps) + (steps == 1 ? " step" : " steps") + " stopped early";
+  return grouped(solves.unconverged) + " of " + grouped(steps) + (steps == 1 ? " step" : " steps");
+}
+
+}  // namespace
+
+std::string stopped_early(const SolveCounts& solves, std::int64_t steps) {
+  return of_steps(solves, steps) + " stopped early";
+}
+
+std::string precision_too_coarse(const Preset& p) {
+  constexpr double much = 0.5;  // of the weight that springs carry: from about here on no step converges
+  constexpr double on_earth = 9.82;
+  const double digit = last_digit(p), by_stretch = p.k_s * digit;
+  const double force = (p.kind == Kind::one_weight ? p.k : std::max(p.k_s, p.k_b)) * digit;
+  const bool hangs = p.kind == Kind::cloth && p.pins.mode != Pins::Mode::none;
+  const double weight = (hangs ? p.rows : 1) * p.m * std::max(std::abs(p.g), on_earth);
+  const bool tears = p.kind == Kind::cloth && p.F_max > 0 && by_stretch > p.F_max;
+  if (!tears && !(is_implicit(scheme(p.integrator)) && force > much * weight)) return "";
+  const std::string text = "Rounding positions to " + std::string(name_of(p.precision)) +
+                           " changes the force of a spring by up to " + quantity(tears ? by_stretch : force, "N", 2);
+  return text +
+         (tears ? " here, more than F_max: springs tear by rounding alone. "
+                : " here, where " +
+                      std::string(hangs                   ? "a column"
+                                  : p.kind == Kind::cloth ? "a particle"
+                                                          : "the mass") +
+                      " weighs " + quantity(weight, "N", 2) + ": steps cannot balance the forces. ") +
+         finer_precision(p);
 }
 
 std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& p) {
@@ -70,19 +120,17 @@ std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const P
   const std::string left = !std::isfinite(worst) ? "forces are not numbers"
                            : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the force unbalanced"
                                        : "up to " + power_number(worst, 2) + " times the largest force unbalanced";
+  const bool passing = counts_passes(scheme(p.integrator)), rounded = 2 * solves.rounded >= solves.unconverged;
+  const std::string digits = "with springs this stiff, rounding positions to " + std::string(name_of(p.precision)) +
+                             " changes forces that much. ";
+  if (rounded && !passing)
+    return "Forces do not balance in " + of_steps(solves, steps) + " (" + left + "): " + digits + finer_precision(p);
   const std::string count = stopped_early(solves, steps) + " (" + left + ")";
-  if (2 * solves.rounded >= solves.unconverged) {
-    const bool single = p.precision == Precision::float_;
-    return count + ": with springs this stiff, rounding positions to " + (single ? "float" : "double") +
-           " changes forces that much. " +
-           (single ? "Use double precision (--precision double)." : "Use a smaller k_s or a larger m.");
-  }
   std::string method(scheme(counts_passes(scheme(p.integrator)) ? "implicit_euler" : p.integrator).title);
   if (method[1] >= 'a') method[0] = char(std::tolower(static_cast<unsigned char>(method[0])));  // but "TR-BDF2"
   const std::string said = count + "; this is " + (worst < much ? "not quite " : "not ") + method + "'s motion. ";
-  const std::string passes = counts_passes(scheme(p.integrator))
-                                 ? "Each step ends after " + std::to_string(p.iterations) +
-                                       (p.iterations == 1 ? " pass, " : " passes, ") + "converged or not. "
+  const std::string passes = passing ? "Each step ends after " + std::to_string(p.iterations) +
+                                           (p.iterations == 1 ? " pass, " : " passes, ") + "converged or not. "
                              : p.iterations == 1 ? "With iterations = 1 a step is a single linear solve. "
                                                  : "";
   if (solves_damping(scheme(p.integrator))) return said + "Use a smaller dt or a smaller k_d.";
@@ -93,6 +141,7 @@ std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const P
                                                     : "them") +
            " (the longest took " + short_number(1000 * solves.longest_limited, 2) +
            " ms). Allow more time per step, or use a smaller dt.";
+  if (rounded) return said + passes + "Also, " + digits + finer_precision(p);
   const bool more = p.iterations < int(find_row("iterations")->max);
   return said + passes + (more ? "Use a smaller dt or more iterations." : "Use a smaller dt.");
 }

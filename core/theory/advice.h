@@ -32,6 +32,11 @@ std::string stopped_early(const SolveCounts& solves, std::int64_t steps);
 /// A sentence about steps that did not converge, and a remedy; empty if all did.
 std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& preset);
 
+/// Whether rounding positions to the preset's precision changes the force of a spring by more than F_max, so that it
+/// tears by that, or by more than implicit steps can balance, and what to do: likewise. It is known before the first
+/// step.
+std::string precision_too_coarse(const Preset& preset);
+
 /// The part of the method in a divergence, by linear theory at the preset's dt (zones.h): words that follow a colon.
 std::string method_to_blame(const Preset& preset);
 

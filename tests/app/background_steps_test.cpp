@@ -98,6 +98,34 @@ TEST_CASE("a step whose equations were not solved is said once, with what is lef
   CHECK(warnings() == 1);
 }
 
+TEST_CASE("a precision that is too coarse is said before the first step, and again only after it was fine") {
+  Preset preset;
+  preset.integrator = "verlet", preset.k_s = 1e7, preset.F_max = 0.5, preset.dt = 1e-6;
+  test::Desk desk(preset);
+  Session& session = desk.session;
+  const auto warnings = [&] {
+    const auto& said = session.messages.list();
+    return std::count_if(said.begin(), said.end(), [](const Message& message) {
+      return message.severity == Message::Severity::warning && message.text.starts_with("Rounding positions to float");
+    });
+  };
+  session.pacing.playing = true;
+  session.update(0, {});
+  CHECK(session.simulation->steps() == 0);
+  CHECK(warnings() == 1);
+  session.messages = {};
+  for (int n = 0; n < 3; ++n) session.update(frame, {});
+  CHECK(warnings() == 0);
+  preset.precision = Precision::double_;
+  session.propose(preset);
+  for (int n = 0; n < 3; ++n) session.update(frame, {});
+  CHECK(warnings() == 0);
+  preset.precision = Precision::float_;
+  session.propose(preset);
+  for (int n = 0; n < 3; ++n) session.update(frame, {});
+  CHECK(warnings() == 1);
+}
+
 TEST_CASE("a change of constants stops the step at once, and counts from the last whole one") {
   Under under;
   Session& session = under.desk.session;

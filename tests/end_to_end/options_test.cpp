@@ -120,6 +120,32 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
   }
 }
 
+TEST_CASE("a precision that is too coarse is said with its cure before the first step, foreseen or met there") {
+  const test::TemporaryFolder folder;
+  const auto first_line = [&](const Words& settings) {
+    Words words{"run", "hanging", "--set", "rows=10", "--set", "columns=9", "--set", "k_b=0", "--steps", "5"};
+    words.insert(words.end(), settings.begin(), settings.end());
+    const std::string err = check(folder, words, 0, "").err;
+    return err.substr(0, err.find('\n'));
+  };
+  const std::string foreseen = "tyglab: Rounding positions to float changes the force of a spring by up to ";
+  for (const char* method : {"implicit_euler", "verlet"}) {
+    const Words stiff{"--set", "k_s=1e8", "--set", "F_max=1", "--dt", "1e-6", "--integrator", method};
+    CHECK(first_line(stiff).starts_with(foreseen + "12 N here, more than F_max: springs tear by rounding alone."));
+  }
+  CHECK(first_line({"--set", "k_s=1e7", "--dt", "0.02", "--integrator", "tr_bdf2"}).starts_with(foreseen));
+  // Not foreseen, since nothing hangs at first: said with the first step that rounding keeps from converging.
+  const std::string err = check(folder,
+                                {"run", "sphere", "--set", "k_s=1e4", "--set", "k_b=0", "--dt", "0.01", "--steps", "8",
+                                 "--integrator", "implicit_midpoint"},
+                                0, "")
+                              .err;
+  CHECK(err.starts_with("tyglab: Forces do not balance in 1 of 1 step (up to "));
+  CHECK(err.find("8 of 8 steps") != std::string::npos);
+  CHECK(first_line({"--set", "k_s=1e7", "--dt", "0.02", "--integrator", "tr_bdf2", "--precision", "double"}).empty());
+  CHECK(first_line({"--set", "k_s=1e3", "--dt", "0.02", "--integrator", "tr_bdf2"}).empty());
+}
+
 TEST_CASE("the work of solving is in JSON for every method that solves, whichever of its counts is 0") {
   const test::TemporaryFolder folder;
   const auto solves = [&](const char* method, const char* steps) {

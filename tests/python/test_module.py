@@ -119,7 +119,8 @@ class Simulations(unittest.TestCase):
         reading = re.search(r"^data = numpy\.genfromtxt\((.*)\)$", page, re.MULTILINE).group(1)
         with tempfile.TemporaryDirectory() as folder:
             files = {name: str(pathlib.Path(folder) / f"{name}.csv") for name in ("state", "series", "ledger", "values")}
-            subprocess.run([PROGRAM, "run", "hanging", "--steps", "100", "--set", "rows=8", "--set", "columns=8",
+            # 120 steps of 1 ms end with a frame of 1/25 s, so that the last row is that of the last state.
+            subprocess.run([PROGRAM, "run", "hanging", "--steps", "120", "--set", "rows=8", "--set", "columns=8",
                             *[word for name, file in files.items() for word in (f"--{name}", file)]],
                            check=True, capture_output=True)
             read = {}
@@ -128,7 +129,9 @@ class Simulations(unittest.TestCase):
                 self.assertTrue(np.isfinite(read[name].view(np.float64)).all(), name)
             self.assertEqual(read["state"].dtype.names, ("i", "j", "x", "y", "z", "vx", "vy", "vz"))
             self.assertEqual(len(read["state"]), 64)
-            self.assertGreater(read["series"]["y_min_m"].size, 1)
+            self.assertEqual(read["series"].size, 4)
+            self.assertAlmostEqual(read["series"]["t"][-1], 0.12, delta=1e-9)
+            self.assertAlmostEqual(read["series"]["y_min_m"][-1], read["state"]["y"].min(), delta=1e-6)
             self.assertEqual(read["series"]["t"][0], 0)
             self.assertIn("sum_F_N", read["series"].dtype.names)
 
@@ -220,20 +223,24 @@ class Simulations(unittest.TestCase):
         self.assertEqual(simulation.solves["unconverged"], 3)
         self.assertGreater(simulation.solves["worst_residual"], 1e-4)
         self.assertIsNone(tyglab.Simulation(tyglab.Preset(integrator="verlet")).solves)
-        damped = tyglab.Simulation(tyglab.Preset(integrator="damped_verlet", k_d=1e6, rows=8, columns=8))
-        damped.step(2)
-        self.assertEqual(damped.solves["linear_steps"], 2000)
-        self.assertEqual(damped.solves["unconverged"], 2)
+        for side, products, missed in ((8, 0, 0), (130, 2000, 2)):  # a small matrix is factorized, a large one is not
+            damped = tyglab.Simulation(tyglab.Preset(integrator="damped_verlet", k_d=1e6, rows=side, columns=side))
+            damped.step(2)
+            self.assertEqual(damped.solves["linear_steps"], products)
+            self.assertEqual(damped.solves["unconverged"], missed)
 
     def test_a_step_can_be_limited_in_time(self):
-        simulation = tyglab.Simulation(tyglab.Preset(integrator="vbd", precision="double", k_s=1e6, dt=0.02, rows=16,
-                                                     columns=16))
-        simulation.limit_steps(1e-12)
-        simulation.step(3)
-        self.assertEqual(simulation.solves["ended_early"], 3)
-        simulation.limit_steps(0)
-        simulation.step(1)
-        self.assertEqual(simulation.solves["ended_early"], 3)
+        # Stiffer in float, and a pass leaves no more than rounding does: then nothing is missing.
+        for precision, k_s in (("float", 1e4), ("double", 1e4), ("double", 1e6)):
+            with self.subTest(precision=precision, k_s=k_s):
+                simulation = tyglab.Simulation(tyglab.Preset(integrator="vbd", precision=precision, k_s=k_s, dt=0.02,
+                                                             rows=16, columns=16))
+                simulation.limit_steps(1e-12)
+                simulation.step(3)
+                self.assertEqual(simulation.solves["ended_early"], 3)
+                simulation.limit_steps(0)
+                simulation.step(1)
+                self.assertEqual(simulation.solves["ended_early"], 3)
         for wrong in (-1, float("nan"), float("inf")):
             with self.assertRaises(ValueError):
                 simulation.limit_steps(wrong)

@@ -9,6 +9,7 @@
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"
 #include "core/model/words.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -66,8 +67,10 @@ void draw_gauge(Ui& ui, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
   }
 }
 
-/// One target, from `lo` to `hi`, of which the bar takes the left part: near a mark it says what that is, else all.
-void gauge_tooltips(Ui& ui, const StabilityLimits& limits, double dt, ImVec2 lo, ImVec2 hi, float bar) {
+/// One target, from `lo` to `hi`, of which the bar takes the left part: near a mark it says what that is, else all,
+/// after what else there is to say.
+void gauge_tooltips(Ui& ui, const StabilityLimits& limits, double dt, ImVec2 lo, ImVec2 hi, float bar,
+                    const std::string& first) {
   const float reach = ui.theme.px(5);
   const auto x_of = [&](const GaugeMark& mark) { return lo.x + bar * float(gauge_position(limits, mark.at)); };
   const std::vector<GaugeMark> marks = gauge_marks(limits, dt);
@@ -87,7 +90,7 @@ void gauge_tooltips(Ui& ui, const StabilityLimits& limits, double dt, ImVec2 lo,
   if (nearest != marks.end() && off(*nearest) <= reach)
     tooltip(ui, ImGui::GetID(nearest->name.data()), nearest->words);
   else
-    tooltip(ui, gui::item_id(), stability_words(limits, dt));
+    tooltip(ui, gui::item_id(), (first.empty() ? "" : first + "\n") + stability_words(limits, dt));
 }
 
 /// "auto" where other rows have their unit: dt follows the constants.
@@ -191,18 +194,21 @@ void stability_row(Ui& ui) {
     const double dt = ui.session.requested_preset().dt;
     const bool bounded = has_limit(*limits);
     const float bar = width - columns.value - columns.unit - 2 * columns.gap, middle = lo.y + height / 2;
-    const std::string text = stability_text(*limits, dt);
+    const std::string coarse = precision_too_coarse(ui.session.requested_preset());
+    const std::string text = coarse.empty() || bounded ? stability_text(*limits, dt)
+                                                       : std::string(name_of(limits->of.precision)) + " too coarse";
     const float right = lo.x + bar + columns.gap + columns.value;
     const float half = ui.theme.px(7);
     if (bounded) draw_gauge(ui, *limits, {lo.x, middle - half}, {lo.x + bar, middle + half});
     const ImFont& font = bounded ? *ui.fonts.mono : *ui.fonts.small;
     const float x = bounded ? right - ui.theme.px(6) - text_width(font, text) : lo.x;
     draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x, baseline_at(ui.fonts, middle)},
-                     bounded            ? zone_color(c, zone_at(*limits, dt))
+                     !coarse.empty()    ? c.warning
+                     : bounded          ? zone_color(c, zone_at(*limits, dt))
                      : limits->any == 0 ? c.danger
                                         : c.quiet,
                      text);
-    gauge_tooltips(ui, *limits, dt, lo, {right, lo.y + height}, bar);
+    gauge_tooltips(ui, *limits, dt, lo, {right, lo.y + height}, bar, coarse);
   });
 }
 

@@ -7,7 +7,8 @@
 namespace tyglab::cpu {
 namespace {
 
-constexpr int ghost_rows = 2;  // above and below, to which no spring reaches
+constexpr int ghost_rows = 2;      // above and below, to which no spring reaches
+constexpr double most_work = 5e8;  // multiplications in a factorization, which nothing stops
 
 static_assert(std::all_of(directions.begin(), directions.end(),
                           [](const Direction& to) { return to.di <= ghost_rows; }));
@@ -36,7 +37,7 @@ void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
 
 template <class R>
 void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance,
-                                bool changed) {
+                                bool changed, Beyond beyond) {
   assert(weights.stretch >= 0 && weights.bending >= 0 && tolerance > 0 && tolerance < 1);
   assert(rows_ == 0 || (rows_ == cloth.lattice.rows && stride_ == cloth.stride));
   weight_ = cloth.preset.kind == Kind::one_weight ? 1 + weights.stretch : 0;
@@ -47,24 +48,32 @@ void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, Sprin
     columns_ = cloth.lattice.columns, stride_ = cloth.stride, rows_ = cloth.lattice.rows;
     changed = true;
   }
-  if (changed) make_masks(cloth, tears), piece_of_.clear();
-  if (weights == weights_ && tolerance == tolerance_) {
-    if (!products_suffice() && piece_of_.empty()) find_pieces(cloth, tears);
-    return;
-  }
+  if (changed) make_masks(cloth, tears), piece_of_.clear(), way_ = Way::untried;
+  if (weights == weights_ && tolerance == tolerance_) return go_beyond(cloth, tears, beyond);
   weights_ = weights, tolerance_ = tolerance;
   // What no lattice's sums of squared differences exceed, times the squares: 12 along stretch springs, 8 along bending
   // ones. Fewer springs and fixed particles make them less.
   kappa_ = 1 + 12 * weights.stretch + 8 * weights.bending;
   products_ = 0, left_ = 0;
-  piece_of_.clear();
+  piece_of_.clear(), way_ = Way::untried;
   if (kappa_ == 1) return;
   // Each round of n leaves 1/T_n((κ + 1)/(κ - 1)) at most.
   const double rate = std::acosh((kappa_ + 1) / (kappa_ - 1));
   products_ = int(std::clamp(std::ceil(std::acosh(1 / std::sqrt(tolerance)) / rate), 1.0, double(most_products)));
   left_ = 1 / std::pow(std::cosh(products_ * rate), 2);
   assert(left_ >= 0 && left_ <= 1);
-  if (!products_suffice()) find_pieces(cloth, tears);
+  go_beyond(cloth, tears, beyond);
+}
+
+/// Prepares what is needed where products do not suffice, unless it is there.
+template <class R>
+void ConstantSolver<R>::go_beyond(const Cloth<R>& cloth, const Tears& tears, Beyond beyond) {
+  if (products_suffice()) return;
+  if (piece_of_.empty()) find_pieces(cloth, tears);
+  if (way_ != Way::untried) return;
+  const bool factorizes = beyond == Beyond::factorizes && LatticeFactor<R>::work(cloth.lattice) < most_work &&
+                          factor_.factorize(cloth, tears, weights_);
+  way_ = factorizes ? Way::factor : Way::products;
 }
 
 template <class R>
@@ -130,12 +139,25 @@ void ConstantSolver<R>::add_means(Field& r, int i) {
   }
 }
 
+/// On one thread: r without means, and a_, the solution without them.
+template <class R>
+void ConstantSolver<R>::solve_directly(Field& r) {
+  subtract_means(r);
+  factor_.solve(r);
+  residual_squares_ = factor_.residual(r);
+  for (int i = 0; i < rows_; ++i)
+    for (int j = 0; j < columns_; ++j)
+      for (int c = 0; c < 3; ++c) a_.row(i + ghost_rows, c)[j] = R(factor_.solution(i, j)[std::size_t(c)]);
+}
+
 template <class R>
 typename ConstantSolver<R>::Size ConstantSolver<R>::size() const {
   if (piece_of_.empty()) return {};
   Size all;
   for (const Size& row : squares_) all.solution += row.solution, all.lacking += row.lacking;
   const double particles = double(piece_of_.size());
+  // A has no eigenvalue below 1: the solution lacks no more than the residual.
+  if (way_ == Way::factor) return {std::sqrt(all.solution / particles), std::sqrt(residual_squares_ / particles)};
   // The part of the solution that changes from particle to particle is at least 1 - left_ of what it should be.
   const double found = std::max(1 - left_, 1e-12);
   return {std::sqrt(all.solution / particles), left_ / found * std::sqrt(all.lacking / particles)};
@@ -171,6 +193,12 @@ void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<
     barrier();
   };
   const double middle = (kappa_ + 1) / 2, half = (kappa_ - 1) / 2, ratio = half * half / (4 * middle * middle);
+  if (way_ == Way::factor) {
+    if (begin == 0) solve_directly(r);
+    barrier();
+    for (int i = begin; i < end; ++i) add_means(r, i);
+    return;
+  }
   if (begin == 0 && !piece_of_.empty()) subtract_means(r);
   for (int i = begin; i < end; ++i) std::fill_n(a_.row(i + ghost_rows), a_.pitch(), R(0));
   barrier();

@@ -1,8 +1,8 @@
 // Linear systems on the lattice with a matrix that does not depend on the motion: A = 1 + Σ over intact springs of β
 // (e_i - e_j)(e_i - e_j)ᵀ, for each of x, y and z, with 0 for pinned and held particles. The Chebyshev iteration solves
 // them. It needs only bounds of the eigenvalues, so the bits of a solution are identical for any number of threads.
-// Where its products do not suffice, the mean of each piece of the lattice that nothing holds is solved for exactly: A
-// does not change it, since it stretches no spring.
+// Where its products do not suffice, a factor of A does, if the lattice is small enough. In both cases the mean of each
+// piece that nothing holds is solved for exactly: A leaves it as it is, since it stretches no spring.
 #pragma once
 
 #include <cstddef>
@@ -10,31 +10,32 @@
 #include <vector>
 
 #include "core/engines/cpu/band.h"
+#include "core/engines/cpu/lattice_factor.h"
 #include "core/model/preset.h"
 
 namespace tyglab::cpu {
-
-/// β of stretch and of bending springs.
-struct SpringWeights {
-  double stretch = 0, bending = 0;
-  bool operator==(const SpringWeights&) const = default;
-};
 
 template <class R>
 class ConstantSolver {
  public:
   using Field = RowField<R>;
   static constexpr int most_products = 500;  ///< in each of the two rounds
+  /// What to do where these do not suffice.
+  enum class Beyond {
+    ends,       ///< the solution is what they have found
+    factorizes  ///< A is factorized, if that takes no more than about a quarter of a second
+  };
 
   /// Prepares solutions whose residual is at most `tolerance` of the right-hand side's norm, on one thread. `changed`:
   /// whether springs or fixed particles may differ from the last call.
-  void prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance, bool changed);
+  void prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance, bool changed,
+               Beyond beyond = Beyond::ends);
   /// Replaces r by the solution of A s = r in rows [begin, end). Called by all threads together, each with its rows;
   /// `barrier` waits for the others. One thread that calls it alone may `stop` it; r then holds anything.
   void solve(Field& r, int begin, int end, const std::function<void()>& barrier, const Stop& stop = {});
-  /// Products with A in each of the two rounds.
-  int products() const { return products_; }
-  /// Bound of what a solution leaves of the residual, as a part of it.
+  /// Products with A in each of the two rounds; 0 where a factor solves.
+  int products() const { return way_ == Way::factor ? 0 : products_; }
+  /// Bound of what products leave of the residual, as a part of it.
   double left() const { return left_; }
   /// Root mean squares over the particles of the last solution, and of what it lacks at most where products did not
   /// suffice.
@@ -44,14 +45,16 @@ class ConstantSolver {
   Size size() const;
   std::size_t bytes() const {
     return a_.bytes() + b_.bytes() + (whole_.size() + free_.size()) * sizeof(R) + piece_of_.capacity() * sizeof(int) +
-           means_.capacity() * sizeof(Mean) + squares_.capacity() * sizeof(Size);
+           means_.capacity() * sizeof(Mean) + squares_.capacity() * sizeof(Size) + factor_.bytes();
   }
 
  private:
   void make_masks(const Cloth<R>& cloth, const Tears& tears);
   void iterate(const Field& r, int begin, int end, double omega, bool first);
   bool products_suffice() const { return left_ <= tolerance_ * (1 + 1e-9); }
+  void go_beyond(const Cloth<R>& cloth, const Tears& tears, Beyond beyond);
   void find_pieces(const Cloth<R>& cloth, const Tears& tears);
+  void solve_directly(Field& r);
   void subtract_means(Field& r);
   void add_means(Field& r, int i);
 
@@ -70,6 +73,10 @@ class ConstantSolver {
   std::vector<int> piece_of_;  ///< of each particle; empty while products suffice
   std::vector<Mean> means_;    ///< of each piece
   std::vector<Size> squares_;  ///< of each row: of the solution, and of it without means
+  enum class Way { untried, products, factor };
+  Way way_ = Way::untried;  ///< where products do not suffice
+  LatticeFactor<R> factor_;
+  double residual_squares_ = 0;  ///< of the factor's last solution
 };
 
 }  // namespace tyglab::cpu

@@ -96,13 +96,11 @@ Balance CpuEngine<R, Present>::damping_balance() const {
   const auto [solution, lacking] = constant_.size();
   if (lacking == 0) return {true, 0};
   const Preset& p = cloth_.preset;
-  double size = 0;
-  for (const R x : cloth_.vectors[vector_x].all()) size = std::max(size, std::abs(double(x)));
-  const double square = p.dt * p.dt, stiffness = std::max(p.k_s, p.k_b) * square / p.m;
+  const double square = p.dt * p.dt;
   return judge({.left = square * lacking,
                 .largest = square * (solution + lacking),
                 .weight = weight_scale(p.g, p.dt),
-                .digits = last_digits(std::numeric_limits<R>::epsilon(), size, stiffness - 1),  // of forces alone
+                .digits = 0,
                 .weightless = p.g == 0},
                balance_tolerance<R>);
 }
@@ -146,7 +144,7 @@ void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
   assert(solves_damping(*scheme_));
   constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
   constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m, 0}, tolerance,
-                    springs_changed(tears));
+                    springs_changed(tears), ConstantSolver<R>::Beyond::factorizes);
   accept_springs(tears);
 }
 

@@ -5,12 +5,8 @@
 // 3; T. Liu et al., ACM Trans. Graph. 32, 214 (2013).
 #pragma once
 
-#include <array>
-#include <cassert>
-#include <vector>
-
-#include "core/engines/banded.h"
 #include "core/engines/cpu/constant_solve.h"
+#include "core/engines/cpu/lattice_factor.h"
 
 namespace tyglab::cpu {
 
@@ -24,25 +20,14 @@ class GlobalStep {
   bool prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed, const Stop& stop);
   /// Replaces r by the solution. Returns how many products with A that took.
   int solve(Field& r, const Stop& stop);
-  std::size_t bytes() const {
-    return products_.bytes() + factor_.bytes() + free_.capacity() + sides_.capacity() * sizeof(std::array<double, 4>);
-  }
+  std::size_t bytes() const { return products_.bytes() + factor_.bytes(); }
 
  private:
-  bool factorize(const Cloth<R>& cloth, const Tears& tears, const Stop& stop);
-  /// The number of a particle, along the lattice's shorter side.
-  int number(int i, int j) const {
-    assert(i >= 0 && i < rows_ && j >= 0 && j < columns_);
-    return by_rows_ ? i * columns_ + j : j * rows_ + i;
-  }
-
-  int rows_ = 0, columns_ = 0;
-  bool by_rows_ = true, ready_ = false, factorized_ = false;
+  Lattice lattice_{0, 0};
+  bool ready_ = false, factorized_ = false;
   SpringWeights weights_;
   ConstantSolver<R> products_;
-  BandedCholesky factor_;
-  std::vector<std::uint8_t> free_;            ///< by number
-  std::vector<std::array<double, 4>> sides_;  ///< right-hand sides, then solutions: x, y, z and 0
+  LatticeFactor<R> factor_;
 };
 
 }  // namespace tyglab::cpu

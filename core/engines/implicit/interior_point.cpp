@@ -166,11 +166,11 @@ double InteriorPoint<R>::linearize() {
   return products;
 }
 
-/// The residual that counts as none: the tolerance, or what the last digits of positions make of the forces.
+/// The residual that counts as none: the tolerance, or what the last digits of positions in double make of the forces.
 template <class R>
 double InteriorPoint<R>::allowed() const {
-  const double digits = last_digits(std::numeric_limits<double>::epsilon(), size_,
-                                    std::max(task_->constants.stretch, task_->constants.bend));
+  const double stiffness = std::max(task_->constants.stretch, task_->constants.bend);
+  const double digits = 4 * std::numeric_limits<double>::epsilon() * size_ * (1 + stiffness);
   return std::max(task_->tolerance * force_, digits);
 }
 
