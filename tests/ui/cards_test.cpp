@@ -339,6 +339,30 @@ TEST_CASE("the Energy card has the textbook's names, and says what a whole bar s
   CHECK(window.drew("full scale 0.2 J"));  // ½ k x²
 }
 
+/// Whether the last frame drew anything in that color.
+bool drew_color(ImU32 color) {
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int n = 0; n < data.CmdListsCount; ++n)
+    for (const ImDrawVert& corner : data.CmdLists[n]->VtxBuffer)
+      if (corner.col == color) return true;
+  return false;
+}
+
+TEST_CASE("the Energy card has bars in a narrow column too") {
+  for (const char* theme : {"dark", "light", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window({.settings = [=](Settings& settings) { settings.theme = theme; }});
+    const ImU32 bar = faded(window.ui.theme.colors.accent, 0.8f);
+    window.frames(20);
+    CHECK_FALSE(drew_color(bar));
+    window.find("energy card");
+    window.frames(4);
+    CHECK(drew_color(bar));
+    CHECK(window.drew("full scale"));
+    for (const std::string& text : window.cut_texts()) CHECK_FALSE(text.starts_with("plots"));
+  }
+}
+
 TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {
   test::NullUi window({.size = {1600, 1000}});
   window.until([&] { return window.t() > 0.3; }, "some motion");
