@@ -75,6 +75,7 @@ TEST_CASE("the card keeps the ledger while it is open: energy moves from height 
   CHECK(window.sees("plots.energy_plot"));
   window.type_value("k_s", "90");
   window.until([&] { return window.cloth().ledger()->works.edits != 0; }, "the edit to be told");
+  window.find("energy card");  // its heading comes back into sight
   window.click("plots.Energy");
   CHECK_FALSE(window.cloth().ledger().has_value());
 }
