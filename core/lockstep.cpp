@@ -94,7 +94,7 @@ std::vector<std::string> Lockstep::apply(const Simulation& original, const Edit&
       }
       return false;
     } catch (const std::exception& error) {
-      gone.push_back("The copy with " + listed(copy.differences) + " is gone: " + error.what());
+      gone.push_back("The copy with " + listed(copy.differences) + " was removed: " + error.what());
       return true;
     }
   });
@@ -106,7 +106,7 @@ std::vector<std::string> Lockstep::resume(Simulation& original, int threads) {
   if (copies_.empty()) return gone;
   if (original.lattice().size() > largest) {
     clear();
-    return {"The copies are gone: this cloth is too large to be copied."};
+    return {"The copies were removed: this cloth is too large to be copied."};
   }
   const Snapshot now = original.snapshot();
   original.restore(now);
@@ -116,7 +116,7 @@ std::vector<std::string> Lockstep::resume(Simulation& original, int threads) {
       copy.cost = {};
       return false;
     } catch (const std::exception& error) {
-      gone.push_back("The copy with " + listed(copy.differences) + " is gone: " + error.what());
+      gone.push_back("The copy with " + listed(copy.differences) + " was removed: " + error.what());
       return true;
     }
   });

@@ -41,8 +41,7 @@ Ledger::Source source_of(const Edit& edit) {
 
 /// Of a motion that is beyond what the scene can hold.
 std::string cause_of_runaway(const AdvanceResult& part, const Preset& preset) {
-  if (part.quantity == "position")
-    return "a particle is farther away than the energy the scene can supply could throw it";
+  if (part.quantity == "position") return "a particle is farther away than the energy of the scene can carry it";
   return excess_in_words(part.excess, preset);
 }
 
@@ -69,7 +68,7 @@ namespace {
 [[maybe_unused]] bool can_run(Preset preset) {
   const bool steps = preset.dt > 0 && std::isfinite(preset.dt);
   preset.dt = Preset().dt;
-  const std::string problem = steps ? check_preset(preset) : "dt: is not a time step";
+  const std::string problem = steps ? check_preset(preset) : "dt: must be a finite number above 0";
   if (!problem.empty()) std::cerr << problem << "\n";
   return problem.empty();
 }
@@ -431,7 +430,7 @@ void Simulation::diverge(const AdvanceResult& part) {
   if (!runaway && springs_too_weak(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight" +
                                                  std::string(preset_.W != glm::dvec3(0) ? " and wind" : "") +
-                                                 (preset_.bodies.empty() ? "; " : ", let alone what bodies push; ")
+                                                 (preset_.bodies.empty() ? "; " : " and for the push of bodies; ")
                                            : ": the spring is too weak for m·g; ";
     d.cause += std::string(scheme(preset_.integrator).title) + " is stable here at dt = " + quantity(preset_.dt, "s");
     d.advice = advice_for_weak_springs(preset_);

@@ -107,8 +107,8 @@ class Simulation {
   AdvanceResult advance(int steps);
   /// From now on advance() ends with the last complete step as soon as `stop` returns true (Engine::stop_when).
   void stop_when(Stop stop);
-  /// From now on a step of a method that can end early does so with what it has found once it has taken so long, s; 0:
-  /// no limit (Engine::limit_steps). Motions are then not the same from run to run.
+  /// Limits the real time of a step, s, for methods that can end early; 0: no limit (Engine::limit_steps). The motion
+  /// then differs from run to run.
   void limit_steps(double seconds);
   double step_limit() const { return step_limit_; }
 

@@ -47,10 +47,10 @@ struct StepTrace {
   bool whole = false;               ///< the stages are all of the step; else it solves, projects or chooses steps
   std::vector<TracedStage> stages;  ///< where not whole: the beginning alone
   glm::dvec3 x{0}, v{0};            ///< before the step, as the method holds them
-  glm::dvec3 x_after{0};            ///< after it: by the stages, or where these are not whole by a copy that makes it
+  glm::dvec3 x_after{0};            ///< after it: from the stages, or else from a copy that makes the step
 };
 
-/// What a method calls a state vector: "x", "v", "d"; stages "x*", "v*", sums that grow "X", "V".
+/// The name of a state vector of a method: "x", "v", "d"; stages "x*", "v*", growing sums "X", "V".
 std::string vector_name(const Scheme& scheme, int vector);
 
 /// The step that the simulation would make next, for a particle of a cloth. Leaves it as it is. Throws EngineError.

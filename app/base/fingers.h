@@ -1,5 +1,5 @@
 // Translates fingers on a touch screen into mouse buttons: one finger grabs what is under it, two rotate and zoom the
-// view; over panels one finger presses, or scrolls what scrolls. A press counts only once it is known to be one
+// view; over panels, one finger presses or scrolls. A press counts only once it is known to be one
 // finger's, so a gesture of two fingers is never a click as well.
 #pragma once
 
@@ -14,7 +14,7 @@ class Fingers {
  public:
   /// ended: the system has taken it for something else, so that it was no tap.
   enum class Phase { down, move, up, ended };
-  /// One of them, by its number, goes down, moves or is lifted; pixels, s.
+  /// The finger of that number goes down, moves or is lifted; pixels, s.
   void on_finger(InputQueue& queue, int id, Phase phase, glm::vec2 at, double time);
   /// To be called in every frame: a finger that stays alone presses after a moment.
   void update(InputQueue& queue, double time);
@@ -23,8 +23,8 @@ class Fingers {
   float wheel_step = 40;  ///< pixels that a panel scrolls for a step of the wheel
 
  private:
-  /// What the first finger does: it may still be the first of two (pending), has pressed, scrolls a panel, or does
-  /// nothing (any more).
+  /// The action of the first finger: it may still be the first of two (pending), has pressed, scrolls a panel, or has
+  /// no action (any more).
   enum class Role { none, pending, pressed, scrolls };
   struct Finger {
     int id;

@@ -19,7 +19,7 @@ struct Duration {
   double wall_s = 0, cpu_s = 0;
 };
 
-/// Adds the time from its making to its end to a sum.
+/// Adds the time of its life to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(Duration& sum) : sum_(sum) {}
@@ -60,17 +60,17 @@ inline constexpr std::array<std::string_view, 12> part_names{"simulate", "sample
                                                              "upload",   "index_lists", "shadow", "draw_cloth",
                                                              "panels",   "ui_draw",     "swap",   "frame"};
 
-/// What lies between the start of the program and its first picture, in order.
+/// The parts of a start, from the start of the program to its first picture, in order.
 enum class StartPart { program, settings, window, shaders, cloth, first_frame };
 inline constexpr std::array<std::string_view, 6> start_names{"program", "settings", "window",
                                                              "shaders", "cloth",    "first_frame"};
 
 class FrameCosts {
  public:
-  /// Starts to watch with what went before: loading the program, and reading what it was called with.
+  /// Starts with the earlier parts: loading the program, and reading its arguments.
   FrameCosts() { started(StartPart::program); }
 
-  /// Counts the time from its making to its end toward a part.
+  /// Counts the time of its life toward a part.
   class Timer {
    public:
     Timer(FrameCosts& costs, Part part) : watch_(costs.now_[std::size_t(part)]) {}
@@ -79,25 +79,25 @@ class FrameCosts {
     Stopwatch watch_;
   };
 
-  /// What was measured elsewhere, in this frame.
+  /// Adds a time that was measured elsewhere in this frame.
   void add(Part part, const Duration& time) {
     now_[std::size_t(part)].wall_s += time.wall_s, now_[std::size_t(part)].cpu_s += time.cpu_s;
   }
-  /// That part of the start is over.
+  /// Ends that part of the start.
   void started(StartPart part);
   void add_steps(std::int64_t steps) { steps_ += steps; }
-  /// How a cloth that had moved came to be drawn, bytes that were copied for it and why, and bytes that others read of
-  /// a device's arrays since the last time.
+  /// Records the path of a moved cloth to OpenGL, the bytes copied for it and the reason, and the bytes that others
+  /// have read of a device's arrays since the last call.
   void add_copied(VertexPath path, std::size_t bytes, const std::string& why, std::size_t read);
   /// Of the last such frame.
   VertexPath vertex_path() const { return vertex_path_; }
   const std::string& why_copied() const { return why_copied_; }
   std::size_t last_copied() const { return last_copied_; }
-  /// Bytes that others read, a frame, over about the last second.
+  /// Bytes per frame that others read, over about the last second.
   double recent_read() const { return recent_read_; }
-  /// Closes the frame: what its parts took joins the means.
+  /// Ends the frame: the times of its parts enter the means.
   void end_frame();
-  /// Milliseconds a frame, over about the last second; 0 once a part has not run for a while.
+  /// Milliseconds per frame, over about the last second; 0 once a part has not run for a while.
   double recent_ms(Part part) const { return recent_ms_[std::size_t(part)]; }
   /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, how
   /// positions come to be drawn, bytes copied and read in a frame in which the cloth had moved, what the start took by

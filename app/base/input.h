@@ -70,7 +70,7 @@ struct InputQueue {
   void on_move(glm::vec2 to, double time);
   void on_wheel(glm::vec2 by, double time);
 
-  /// The frame has taken what came.
+  /// Ends the frame, which has processed all events.
   void clear();
 
  private:
@@ -80,7 +80,7 @@ struct InputQueue {
 
 // The part of the window that shows the cloth.
 
-/// Where the viewport is in the window, and what lies over it.
+/// The place of the viewport in the window, and the panels over it.
 struct Viewport {
   struct Box {
     glm::vec2 lo{0}, hi{0};
@@ -96,13 +96,13 @@ struct Viewport {
   glm::vec2 whole() const { return box.hi - box.lo; }
   /// Of one picture.
   glm::vec2 size() const { return whole() / glm::vec2(columns, rows); }
-  /// Where the n-th picture begins, pixels in the window.
+  /// The upper left corner of the n-th picture, pixels in the window.
   glm::vec2 origin(int tile) const { return box.lo + size() * glm::vec2(tile % columns, tile / columns); }
-  /// Where one more picture than those would begin; none where they take all places.
+  /// The corner of a further picture; none if the pictures take all places.
   std::optional<glm::vec2> free_place(int pictures) const {
     return pictures < columns * rows ? std::optional(origin(pictures)) : std::nullopt;
   }
-  /// The picture under a pixel of the window; the nearest one where none is.
+  /// The picture under a pixel of the window, or the nearest one.
   int tile_at(glm::vec2 p) const;
   /// Divides the viewport for that many pictures.
   void divide(int pictures);

@@ -24,7 +24,7 @@ std::string cited(std::string_view text, std::size_t most = 60) {
 }
 
 [[noreturn]] void fail(std::string_view link, const std::string& why) {
-  throw PresetError("The link " + cited(link, 200) + " " + why + " Copy it again, whole; links look like " +
+  throw PresetError("The link " + cited(link, 200) + " " + why + " Copy the whole link again; links look like " +
                     std::string(example_link) + ".");
 }
 
@@ -88,7 +88,7 @@ std::string scheme_of(std::string_view text) {
   if (scheme_of(address) == "file")
     cure = "Open the file by its path: " +
            cited(decoded(address.substr(std::min(address.find('/', 7), address.size())), address), 200) + ".";
-  throw PresetError("The address " + cited(address, 200) + " holds no experiment. " + cure);
+  throw PresetError("The address " + cited(address, 200) + " contains no experiment. " + cure);
 }
 
 /// Without the last bits that sums leave: 0.2325 in place of 0.23249999999999998.
@@ -119,7 +119,7 @@ std::string framed_preset(std::string_view address, std::string_view link, bool 
     if (key == "preset") {
       name = value;
     } else if (alone && key == "lab") {
-      throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
+      throw PresetError("The link opens a lab, not a preset: start it in the window with tyglab --lab " +
                         in_one_line(excerpt(value)) + ".");
     } else if (alone && key != "embed" && key != "panels") {
       if (name.empty()) refuse_address(link);
@@ -169,7 +169,8 @@ Preset linked_preset(const LinkedPreset& link) {
   }
   Preset preset = with_parsed_settings(read_preset(find_preset(link.name).file), settings);
   if (!preset.texture.empty() && !is_shipped_texture(preset.texture))
-    throw PresetError("The link's texture " + cited(preset.texture) + " is not a shipped one; a link holds no image.");
+    throw PresetError("The link's texture " + cited(preset.texture) +
+                      " is not a shipped one; a link contains no image.");
   return preset;
 }
 

@@ -17,46 +17,46 @@ struct Message {
   double born;  ///< s, the window's clock; negative until first shown
 };
 
-/// At most three, so that they leave the cloth in sight: a further one takes the oldest's place. One that is said again
-/// while it is shown is renewed, and goes to the log once.
+/// The shown messages, at most three, so that the cloth stays visible: a further one replaces the oldest. A message
+/// that is repeated while it is shown is renewed, and enters the log once.
 class Messages {
  public:
   static constexpr std::size_t most = 3;
 
-  /// A text that is there can always be said: none needs memory that may be short by then.
+  /// Reserves memory for the list, since memory may be short when a message is due.
   Messages() { list_.reserve(most + 1); }
 
   void note(std::string text) { add(Message::Severity::note, std::move(text)); }
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }
 
-  /// A folder whose name means nothing to the user, as the page's home: of files in it messages say the name alone.
+  /// A folder whose name means nothing to the user, such as the page's home: messages name only the files in it.
   std::string unnamed;
 
-  /// What was said no longer holds.
+  /// Withdraws a message that no longer applies.
   void take_back(const std::string& text) {
     std::erase_if(list_, [&](const Message& m) { return m.text == text; });
   }
 
-  /// Drops what has been shown long enough: notes after 4 s, warnings and errors after 8 s. `held`: all count as new,
-  /// since they cannot be seen to yet.
+  /// Drops expired messages: notes after 4 s, warnings and errors after 8 s. `held`: all count as new, since the user
+  /// cannot read them yet.
   void age(double now, bool held = false) {
     for (Message& m : list_)
       if (held) m.born = now;
     std::erase_if(list_, [&](const Message& m) { return m.born >= 0 && now - m.born > lifetime(m.severity); });
   }
-  /// That one is seen now: its time begins, if it has not.
+  /// Marks a message as seen: its time begins, if it has not yet.
   void show(std::size_t index, double now) {
     if (list_[index].born < 0) list_[index].born = now;
   }
-  /// The one that matters most: of the most severe the latest. There is at least one.
+  /// The most important message: the latest of the most severe. There must be one.
   std::size_t foremost() const {
     std::size_t best = 0;
     for (std::size_t k = 1; k < list_.size(); ++k)
       if (list_[k].severity >= list_[best].severity) best = k;
     return best;
   }
-  /// When the next one is to go, s of the window's clock; at once while none has been shown.
+  /// The time at which the next message expires, s of the window's clock; at once while none has been shown.
   double next_end() const {
     double end = std::numeric_limits<double>::infinity();
     for (const Message& m : list_)

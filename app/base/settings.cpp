@@ -259,14 +259,13 @@ Json settings_in(const fs::path& file) {
   try {
     const std::string text = read_input(file, "settings file", most_bytes);
     if (version_of(parse_json(text, "", Lines::told, 2 * max_json_values)) > settings_version)
-      throw OutputError(file.string() + ": a newer Tyglab wrote it meanwhile");
+      throw OutputError(file.string() + ": a newer Tyglab has written it since");
     Json json = Json::parse(text);
     if (json.is_object()) return json;
   } catch (const InputError&) {
   } catch (const PresetError&) {
   }
-  if (put_aside(file, ".broken").empty())
-    throw OutputError(file.string() + ": cannot be read, nor moved out of the way");
+  if (put_aside(file, ".broken").empty()) throw OutputError(file.string() + ": cannot be read or moved aside");
   return {};
 }
 
@@ -298,7 +297,7 @@ Settings load_settings(std::string& problem) {
   try {
     const JsonNode root = read_tree(file);
     if (const int version = version_of(root); version > settings_version) {
-      problem = "The settings in " + file.string() + " are those of a newer Tyglab (version " +
+      problem = "The settings in " + file.string() + " were written by a newer Tyglab (version " +
                 std::to_string(version) + "; this one reads " + std::to_string(settings_version) +
                 "). The defaults are used. " + kept_aside(file, ".version-" + std::to_string(version));
       return {};

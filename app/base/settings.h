@@ -22,7 +22,7 @@ struct Layout {
   bool operator==(const Layout&) const = default;
 };
 
-/// How the pointer's tools work, and what they show.
+/// Settings of the pointer's tools.
 struct ToolSettings {
   bool cut_along_path = false;  ///< a cut takes what the pointer's path crosses; otherwise springs upward (2.3.4)
   bool slow_hand = false;       ///< slow motion while the hand is in the cloth
@@ -30,7 +30,7 @@ struct ToolSettings {
   bool operator==(const ToolSettings&) const = default;
 };
 
-/// The preset of the last session, with what was not saved.
+/// The preset of the last session, including unsaved changes.
 struct LastSession {
   Preset preset;
   Preset saved;  ///< as it was opened or saved; a user's file is read again
@@ -67,19 +67,19 @@ std::filesystem::path user_preset_folder();
 /// renamed to settings.json.broken, or settings.json.version-2 where a newer program wrote it, so that nothing of it is
 /// lost.
 Settings load_settings(std::string& problem);
-/// Writes what differs from `known`, which is what this program read or wrote last, so that several windows keep each
-/// other's changes: the last one to change a value has it. Throws OutputError.
+/// Writes the values that differ from `known`, the values that this program read or wrote last, so that several windows
+/// keep each other's changes: the latest change of a value counts. Throws OutputError.
 void save_settings(const Settings& settings, const Settings& known);
 
 // The running program, as the system identifies it.
 
 /// Its file. Throws std::filesystem::filesystem_error where the system does not say.
 std::filesystem::path program_file();
-/// What starts this very program once more, even where its file has been replaced since.
+/// The path that starts this program again, even if its file has been replaced since.
 std::string this_program_again();
-/// Where the files that come with it are, when it is in that folder.
+/// The folder of the data files of a program that lies in `folder`.
 std::filesystem::path data_folder_beside(const std::filesystem::path& folder);
-/// How long it has run, s.
+/// Its run time, s.
 double program_age_s();
 
 }  // namespace tyglab

@@ -17,13 +17,13 @@
 
 namespace tyglab {
 
-/// The example in messages and in help: a cloth that lasts.
+/// The example link in messages and in help: a cloth that stays stable.
 constexpr std::string_view example_link = "#hanging&k_s=100";
 
 /// Whether a word on the command line, or dropped on the window, is a link or an address rather than a name or a file.
 bool is_link(std::string_view text);
 
-/// What a link says.
+/// The content of a link.
 struct LinkedPreset {
   std::string name;                   ///< of a shipped preset
   std::vector<std::string> settings;  ///< "k_s=100"
@@ -37,13 +37,13 @@ LinkedPreset read_link(std::string_view text);
 /// The preset itself. Throws PresetError: a setting is wrong.
 Preset linked_preset(const LinkedPreset& link);
 
-/// The link to these constants. `label`: of the shipped preset that they were made from, or anything else. Its texture
-/// is named only where it is shipped; numbers are without the noise of their last bits.
+/// The link to these constants. `label`: name of the shipped preset from which they were made, or any other text. The
+/// link names only a shipped texture, and its numbers omit the noise of their last bits.
 std::string link_to(const Preset& preset, const std::string& label);
 
 // Formats and reads numbers in panels; short_number of notation.h formats constants.
 
-/// A read-out that does not dance: always three significant digits, "3.41·10⁻³", "12.0".
+/// A steady read-out, always with three significant digits: "3.41·10⁻³", "12.0".
 std::string steady_number(double value);
 /// "(1.00, -2.50·10⁻³, 0)": each as steady_number.
 std::string steady_vector(const glm::dvec3& value);
@@ -51,8 +51,8 @@ std::string steady_vector(const glm::dvec3& value);
 std::string time_number(double t, double dt);
 /// Significant digits, four at least, that show the ends of a span with an error of a twentieth of the span at most.
 int digits_apart(double lo, double hi);
-/// What somebody typed: a comma counts as a decimal point. After it may stand the unit, or one that differs from it by
-/// an SI prefix ("2 ms" where s are meant, "9,8 cm"), which is converted. None if it is not a number or has another
+/// Parses a typed number; a comma counts as a decimal point. After it may stand the unit, or one that differs from it
+/// by an SI prefix ("2 ms" where s are meant, "9,8 cm"), which is converted. None if it is not a number or has another
 /// unit.
 std::optional<double> typed_number(std::string_view text, std::string_view unit = {});
 
@@ -62,7 +62,7 @@ std::optional<double> typed_number(std::string_view text, std::string_view unit 
 /// With no-break spaces within formulas ("F = −k·(x − x₀)") and quantities ("0.5 N").
 std::string with_whole_terms(std::string text);
 
-/// What is to be done with mouse and keys, in the words of a finger on a touch screen.
+/// Instructions for mouse and keys, rewritten for a finger on a touch screen.
 std::string for_fingers(std::string_view text);
 
 /// With a capital letter at the start, unless that is a symbol or a key.
@@ -75,11 +75,11 @@ using Measure = std::function<float(std::string_view)>;
 /// line is broken before a relation sign, or else at any of its spaces; a single word that is wider is cut.
 std::string broken_into_lines(std::string_view text, float width, const Measure& measure);
 
-/// As much of the text as has that width, with an ellipsis where it was cut.
+/// The part of the text that fits into that width, with an ellipsis where it was cut.
 std::string shortened(const std::string& text, float width, const Measure& measure);
 
-/// A name and what has become of it ("verlet, dt = 0.002 · diverged at t = 0.19 s"): on one line where they have room,
-/// else on as many as they need, at most `most`. Where that is too little the name is shortened, never the state.
+/// A name and its state ("verlet, dt = 0.002 · diverged at t = 0.19 s"): on one line if they fit, else on as many as
+/// they need, at most `most`. If that is too little, the name is shortened, never the state.
 std::vector<std::string> name_lines(const std::string& name, const std::string& state, float width, std::size_t most,
                                     const Measure& measure);
 

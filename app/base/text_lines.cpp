@@ -50,16 +50,16 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> fingers_
     {"R brings it back there", "Restart brings it back there"},
     {"Hold the left button and drag across the sheet",
      "Choose Cut with one finger in the menu, and draw across the sheet"},
-    {"Press W to see the wind's arrow, and drag its tip towards the far side of the sheet: Shift drags in depth, Ctrl "
+    {"Press W to see the wind's arrow, and drag its tip toward the far side of the sheet: Shift drags in depth, Ctrl "
      "along one axis. Or type W's third number.",
      "Type W's third number, the wind along z."},
     {"Ctrl+L lists all labs", "The cap at the top lists all labs"},
     {", in Ctrl+P, opens it", ", in the menu, opens it"},
     {"Ctrl+Z then R", "Undo, then restart"},
-    {"Ctrl+Z undoes it", "Undo takes it back"},
-    {"Ctrl+Z undoes that", "Undo takes it back"},
+    {"Ctrl+Z undoes it", "Undo reverts it"},
+    {"Ctrl+Z undoes that", "Undo reverts it"},
     {" (Ctrl+P)", ", in the menu,"},
-    {"Space runs", "Run goes on"},
+    {"Space runs", "Run continues"},
 }};
 
 std::vector<std::string> split(std::string_view text, std::string_view at) {

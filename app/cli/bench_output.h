@@ -15,7 +15,7 @@
 
 namespace tyglab {
 
-/// What every benchmark and experiment is asked.
+/// The options common to all benchmarks and experiments.
 struct BenchOptions {
   bool quick = false;
   int threads = 0;  ///< 0: as many as there are processors
@@ -34,7 +34,7 @@ CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string
 /// The frame of a benchmark's JSON: its name, the machine, the version and build, and the rows under "runs".
 nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs);
 
-/// How far the results of a benchmark under an InterruptGuard came: to their end, or to Ctrl-C.
+/// The completeness of the results of a benchmark under an InterruptGuard, which Ctrl-C can cut short.
 Reach bench_reach();
 /// Its exit code; if Ctrl-C ended it, says so and where the results so far are.
 int bench_exit(const std::vector<Output>& outputs);
@@ -49,7 +49,7 @@ struct AccuracyResult {
 
 /// The scene, its references and the table's head.
 void print_scene(std::ostream& out, const AccuracyResult& result);
-/// A line: when the method reaches each decade of error that the reference can tell.
+/// A line with the time at which the method reaches each decade of error that the reference resolves.
 void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows, const Reference& reference);
 void print_winners(std::ostream& out, const std::vector<AccuracyWinner>& winners);
 
@@ -59,7 +59,7 @@ void print_statistics(std::ostream& out, const std::vector<MotionStatistics>& st
 nlohmann::ordered_json accuracy_json(const std::vector<AccuracyResult>& results,
                                      const std::vector<MotionStatistics>& statistics);
 inline constexpr float accuracy_chart_height = 560;  ///< points: its legend takes some lines
-/// Error over run time, logarithmic both, a chart a scene.
+/// Error over run time, on logarithmic axes, one chart per scene.
 std::vector<Chart> accuracy_charts(const std::vector<AccuracyResult>& results);
 
 }  // namespace tyglab

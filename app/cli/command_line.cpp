@@ -72,7 +72,7 @@ std::string command_problem(const CLI::App& program, std::span<const std::string
     return "'" + word + "' is neither a command nor a preset." + meant;
   }
   if (at->get_require_subcommand_min() == 0) return {};
-  return typed + ": one of its commands must follow: " + joined(command_names(*at)) + ".";
+  return typed + ": needs one of its commands: " + joined(command_names(*at)) + ".";
 }
 
 /// What CLI11 lists from the last to the first, in the order in which it was typed.
@@ -82,8 +82,8 @@ std::string unexpected(const CLI::ExtrasError& error) {
   std::string list;
   for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
   return "Not expected here: " + list +
-         ". `tyglab COMMAND --help` lists what a command takes; options come after it, as in `tyglab run denim --steps "
-         "4`.";
+         ". `tyglab COMMAND --help` lists the options of a command; they come after it, as in `tyglab run denim "
+         "--steps 4`.";
 }
 
 /// What CLI11 says in words of its own; empty for all else.
@@ -91,9 +91,9 @@ std::string in_plain_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::size_t twice = text.find(": At Most 1 required"), both = text.find(" excludes ");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && twice != std::string::npos)
-    return text.substr(0, twice) + ": given more than once; give it once.";
+    return text.substr(0, twice) + ": given more than once; use it once.";
   if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr && both != std::string::npos)
-    return text.substr(0, both) + " and " + text.substr(both + 10) + " cannot be given together.";
+    return text.substr(0, both) + " and " + text.substr(both + 10) + " cannot be combined.";
   return {};
 }
 
@@ -158,9 +158,8 @@ int run_action(const Action& action) {
   } catch (const OutputError& error) {
     return say(error.what(), InterruptGuard::interrupted() ? exit_interrupted : exit_output);
   } catch (const std::bad_alloc&) {
-    return say(
-        "There is not enough memory for a cloth of this size; ask for fewer rows or columns." + memory_limit_words(),
-        exit_engine);
+    return say("There is not enough memory for a cloth of this size; use fewer rows or columns." + memory_limit_words(),
+               exit_engine);
   } catch (const std::exception& error) {
     return say(std::string("Internal error: ") + error.what(), exit_violation);
   }

@@ -26,17 +26,18 @@ enum ExitCode : int {
   exit_interrupted = 130  ///< Ctrl-C
 };
 
-/// The command line is wrong in a way that its parser does not see. `what()` says what to write instead.
+/// An error of the command line that its parser does not detect. `what()` names the correct form.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the command line picked: does the work and returns the exit code.
+/// The action that the command line selects: it does the work and returns the exit code.
 using Action = std::function<int()>;
 
 /// Ends the program's parsing: prints help (0) or what is wrong with the command line (2). `words` are those typed
-/// after the program's name: one that should be a command and is none is named, with those that there are.
+/// after the program's name: a word in the place of a command that is none is named in the message, with the known
+/// commands.
 int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const std::string> words);
 /// The names of a command's own commands.
 std::vector<std::string> command_names(const CLI::App& command);
@@ -46,18 +47,18 @@ int run_action(const Action& action);
 /// "1 step", "2 steps".
 std::string counted(std::int64_t count, const std::string& noun);
 
-/// Checks that an option's text is a number in that range, ends included, and says so in words: "0 to 1e9 s".
-/// Given to CLI::Option::transform, since it also rewrites whole numbers for the parser, which would read 010 as 8 and
-/// not read 1e6 at all.
+/// Checks that an option's text is a number in that range, ends included, and describes the range: "0 to 1e9 s". Given
+/// to CLI::Option::transform, since it also rewrites whole numbers for the parser, which would read 010 as 8 and not
+/// read 1e6 at all.
 CLI::Validator number_between(double lowest, double highest, const std::string& unit = {});
 CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest);
-/// Checks that an option's text is not empty, as it is where a script's variable was never set.
+/// Checks that an option's text is not empty, as when a script's variable was never set.
 CLI::Validator not_empty();
 
 // --color: the quantity that colors the cloth in pictures and in the window.
 
-/// Adds --color, whose text is the name of a ParticleField (field_called), or empty. `copies`: there may be some, which
-/// the distance from a reference needs.
+/// Adds --color, whose text is the name of a ParticleField (field_called), or empty. `copies`: whether there may be
+/// copies, which the distance from a reference needs.
 void add_color_option(CLI::App& command, std::string& name, bool copies);
 
 // --size WxH: the size of pictures and of the window.

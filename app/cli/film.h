@@ -25,7 +25,7 @@ class Film {
   /// `view`: 1 to 5, 0: the preset's own. A texture that cannot be read is reported on stderr. Throws GraphicsError.
   /// `color`: what colors the cloth, with a legend in the picture; none: it has its own look.
   Film(const Preset& preset, int view, PictureSize size, std::optional<ParticleField> color = {});
-  /// Returns where the picture is (write_output). Throws OutputError.
+  /// Returns the path of the picture (write_output). Throws OutputError.
   std::filesystem::path shoot(Simulation& simulation, const std::filesystem::path& file, Reach reach = Reach::whole);
 
  private:

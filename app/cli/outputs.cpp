@@ -43,7 +43,7 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<Input>&
       if (!b->file.empty() && (same_file(a->file + incomplete, b->file) || same_file(b->file + incomplete, a->file)))
         throw UsageError(b->option + " and " + a->option +
                          ": one of them is written under the name of the other until " +
-                         "it is whole; use a name that does not end in " + incomplete);
+                         "it is complete; use a name that does not end in " + incomplete);
     for (const Input& input : inputs)
       if (!input.file.empty() && same_file(a->file, input.file))
         throw UsageError(a->option + " " + a->file + ": would overwrite " + input.what +
@@ -67,7 +67,7 @@ void make_output_folder(const std::string& option, const std::string& folder) {
     throw UsageError(option + " -: several files cannot go to standard output; name a folder");
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw OutputError(folder + ": is not a folder; name one, or one that is to be made");
+    throw OutputError(folder + ": is not a folder; name an existing or a new folder");
   fs::create_directories(folder, error);
   if (error) throw OutputError(folder + ": the folder cannot be created: " + error.message());
   if (!os::may_write_into(folder)) throw OutputError(folder + ": is not writable; choose another folder");

@@ -24,16 +24,16 @@ struct Input {
   std::filesystem::path file;
 };
 
-/// Whether both would be one file, by whatever names and links.
+/// Whether both names lead to one file, directly or through links.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 /// Throws UsageError where two outputs would be one file, where one would replace what is read, or where bytes would go
 /// to a terminal; OutputError unless each file can be made.
 void check_outputs(const std::vector<Output>& outputs, const std::vector<Input>& inputs = {});
 
-/// Where sentences for people go: to standard output, or to stderr if an output goes to the former.
+/// The stream for messages to people: standard output, or stderr if an output goes to standard output.
 std::ostream& people(const std::vector<Output>& outputs);
 
-/// What a file of figures for programs holds: in UTF-8 whatever files are called, with a line's end.
+/// The JSON text of a result file, in UTF-8 whatever the names of files, with a final line feed.
 std::string json_text(const nlohmann::ordered_json& json);
 
 /// Throws UsageError if a folder of files is to go to standard output, OutputError if the folder cannot be made.
@@ -45,7 +45,7 @@ struct Sequence {
   std::int64_t count = 0;    ///< of frames planned
   std::int64_t written = 0;  ///< of them, the first
 };
-/// Says in a line on stderr if there are other files of such names, which a longer sequence has left there.
+/// Prints a line on stderr if the folder has other files with such names, left by a longer sequence.
 void warn_of_older_frames(const Sequence& sequence);
 
 /// Adds an option that names a file or a folder; an empty name is refused.

@@ -18,7 +18,7 @@ namespace tyglab {
 struct EngineChoice;
 struct ToleranceChoice;
 
-/// The engines that a command works on.
+/// The engines that a command supports.
 enum class Engines { all, cpu };
 
 /// A preset with the command line's settings.
@@ -30,12 +30,12 @@ struct ResolvedPreset {
   std::shared_ptr<const ToleranceChoice> choice = {};      ///< --tolerance: what was chosen, and why; null: not asked
   std::shared_ptr<const EngineChoice> engine_choice = {};  ///< --engine auto, likewise
 
-  /// What no output may replace.
+  /// The files that no output may replace.
   std::vector<Input> inputs() const;
 };
 
-/// Says in a line on stderr if the picture that the preset names is not there or cannot be read: who does not draw it
-/// would not notice.
+/// Prints a line on stderr if the preset's texture is missing or cannot be read, which a command without pictures would
+/// not notice.
 void warn_of_texture(const Preset& preset);
 
 /// PRESET, --set, --integrator, --dt, --tolerance, --engine, --precision and --threads as typed.
@@ -58,7 +58,7 @@ struct PresetArgument {
   /// where they are known, and what is chosen, as of --engine auto, is said on stderr.
   ResolvedPreset resolve(const std::string& fallback = {}, const std::vector<std::string>& commands = {},
                          std::optional<double> seconds = {}) const;
-  /// Whether anything of the scene was typed.
+  /// Whether the command line contains any part of the scene.
   bool typed() const;
 
  private:
@@ -69,7 +69,7 @@ struct PresetArgument {
   void add_engine(CLI::App& command);
   void choose_dt(ResolvedPreset& resolved) const;
   void choose_engine(ResolvedPreset& resolved) const;
-  /// The command line with another tolerance, to type.
+  /// The command line with another tolerance, for the user to type.
   std::string with_tolerance(double other, std::optional<double> seconds) const;
   void choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const;
 };

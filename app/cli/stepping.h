@@ -12,7 +12,7 @@
 
 namespace tyglab {
 
-/// How far to go: seconds or steps, whichever was typed.
+/// The length of a run: seconds or steps, whichever was typed.
 struct Length {
   std::optional<double> seconds;
   std::optional<std::int64_t> steps;
@@ -21,11 +21,11 @@ struct Length {
   void add_to(CLI::App& command, bool with_steps);
   /// Steps of dt; `default_seconds` where nothing was typed. Throws UsageError if they are too many to count.
   std::int64_t in_steps(double dt, double default_seconds) const;
-  /// Says in a line on stderr if the seconds typed are too short for a single step of dt.
+  /// Prints a line on stderr if the seconds typed are too short for a single step of dt.
   void warn_if_too_short(double dt) const;
 };
 
-/// Which step ends at which time, from the last change of dt on.
+/// The time at the end of each step, from the last change of dt on.
 struct Timeline {
   double dt;
   std::int64_t step = 0;  ///< at which dt became this
@@ -41,7 +41,7 @@ class FramePlan {
   double fps() const { return fps_; }
   std::int64_t count() const { return count_; }
   std::int64_t step_of(std::int64_t frame) const;
-  /// dt has changed: frames stay where they are in time.
+  /// Adapts to a changed dt; the frames keep their times.
   void follow(const Timeline& timeline) { timeline_ = timeline; }
 
  private:
@@ -63,7 +63,7 @@ class Stepper {
   Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt = false);
   /// Advances to that step. False if it ended before: diverged, interrupted, or dt has changed (changed()).
   bool advance_to(std::int64_t step);
-  /// Whether dt has changed since the last call, so that what is planned in steps is to be planned again.
+  /// Whether dt has changed since the last call, so that plans in steps must be made again.
   bool changed();
   const Timeline& timeline() const { return timeline_; }
   /// The step with which the run ends.

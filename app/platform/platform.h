@@ -1,4 +1,4 @@
-// What each system does in its own way: linux/, windows/ (both with desktop/) and web/ implement it.
+// Functions that differ between systems: linux/, windows/ (both with desktop/) and web/ implement them.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@
 
 namespace tyglab {
 
-/// Where a copied link begins, "https://host/path/"; empty elsewhere.
+/// The beginning of a copied link, "https://host/path/"; empty outside the page.
 std::string page_address();
 /// Shows a link ("#hanging&k_s=100") in the address bar, where there is one, with the lab that is played (empty: none)
 /// and its step, counted from 1; as a further place that the browser goes back from, or in place of the present one.
@@ -34,7 +34,7 @@ const char* display_advice();
 // Background work without threads: the memory of a page belongs to one thread, but a worker can receive a copy of it,
 // and with it of the whole running program. The results of the copy return as bytes.
 
-/// Whether this platform works so, in place of threads.
+/// Whether this platform uses copies of the program in place of threads.
 bool works_in_copies();
 
 /// A copy of the program that does one piece of work.
@@ -45,7 +45,7 @@ class Copy {
   /// Begins `work(report)` in a copy; `take` is called here, between frames, with each report, in order. What the work
   /// changes elsewhere, the copy alone sees. Only where works_in_copies().
   Copy(std::function<void(const Report& report)> work, Report take);
-  /// Ends the work, wherever it is.
+  /// Ends the work at any point.
   ~Copy();
   Copy(const Copy&) = delete;
   Copy& operator=(const Copy&) = delete;
@@ -65,15 +65,15 @@ GlContext current_gl_context(void (*(*address)(const char* name))());
 // The user's files: on a desktop these are files of the system; in a page the browser transfers
 // them.
 
-/// Whether files that are written must be handed out, and those to read asked for.
+/// Whether written files must be handed to the user, and files to read requested from the user.
 bool files_are_handed_out();
-/// Gives a person a file that has been written: the browser downloads it. Elsewhere nothing.
+/// Hands a written file to the user: the browser downloads it. On other platforms it does nothing.
 void hand_out(const std::filesystem::path& file);
-/// Asks for a file that has one of these endings (".json,.png"); it arrives like one that is dropped on the window.
+/// Asks the user for a file with one of these endings (".json,.png"); it arrives like a dropped file.
 void ask_for_file(const std::string& endings);
-/// Whether the clipboard has taken the last text; a page that may not use it shows the text instead, to be copied.
+/// Whether the clipboard accepted the last text; a page that may not use the clipboard shows the text instead.
 bool clipboard_took();
-/// Keeps the small files of a folder and those below it for the next session, where the system would forget them.
+/// Stores the small files of a folder and its subfolders for the next session, on platforms that would lose them.
 /// Throws OutputError.
 void keep_files(const std::filesystem::path& folder);
 
@@ -108,11 +108,11 @@ class FrameLoop {
   virtual bool run_frame() = 0;
   /// Ends the program after the last frame, and returns its exit code.
   virtual int finish() = 0;
-  /// The program may end here without a word, as a page that is left: keeps what would be lost.
+  /// Saves unsaved data before the program may end without notice, such as a page that is left.
   virtual void leave() {}
 };
 
-/// Makes all turns and returns what finish() does. A browser makes them after this has returned, with 0.
+/// Runs all frames and returns the result of finish(). A browser runs the frames after this function has returned 0.
 int run_frame_loop(std::unique_ptr<FrameLoop> loop);
 
 // Background threads.
@@ -129,7 +129,7 @@ bool display_there();
 /// s since some moment of this program: the time of events and frames.
 double window_time();
 
-/// Whether whoever sits there has asked all pages for a light ground, or for little motion; a desktop does not tell.
+/// Whether the user's browser requests a light color scheme, or reduced motion; false on a desktop.
 bool prefers_light();
 bool prefers_little_motion();
 
@@ -142,19 +142,19 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Takes what has happened; waits that long for it, s, unless it is there. A browser never waits.
+  /// Processes events; waits for them for at most that time, s. A browser never waits.
   void take_events(double wait);
-  /// Shows what has been drawn.
+  /// Shows the drawn frame.
   void swap();
   /// Whether swap() waits for the screen, where that can be chosen.
   void wait_for_screen(bool waits);
 
   bool wants_close() const;
   void forget_close();
-  /// Whether nobody sees it: iconified, or a page in the background.
+  /// Whether it is invisible: iconified, or a page in the background.
   bool hidden() const;
   void set_title(const std::string& title);
-  /// What goes on, in words, for screen readers: "state", "time" or "messages". A page alone can say it.
+  /// Text for screen readers: "state", "time" or "messages". Only a page supports it.
   void tell(const std::string& part, const std::string& words);
   void toggle_full_screen();
   bool full_screen() const;
@@ -176,8 +176,8 @@ class Window {
   std::unique_ptr<Parts> parts_;
 };
 
-/// What Dear ImGui has of the platform, in its current context: size and time of a frame, clipboard, the pointer's
-/// shape, drawing. Events come by the window's queue.
+/// The platform's part of Dear ImGui, in its current context: size and time of a frame, clipboard, the pointer's shape,
+/// drawing. Events come by the window's queue.
 class GuiBackend {
  public:
   explicit GuiBackend(Window& window);

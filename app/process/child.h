@@ -33,8 +33,8 @@ class ChildError : public std::runtime_error {
 
 struct ChildOptions {
   double most_seconds = 0;            ///< after which it is killed; 0: never
-  double most_processor_seconds = 0;  ///< likewise, of what it has computed: the same however busy the machine is
-  bool silent = false;                ///< what it writes to standard output and error goes nowhere
+  double most_processor_seconds = 0;  ///< likewise, of its processor time, which does not depend on other programs
+  bool silent = false;                ///< its standard output and error are discarded
   bool interruptible = false;         ///< Ctrl-C and SIGTERM end it, as by default; otherwise it ignores Ctrl-C
 };
 
@@ -51,9 +51,9 @@ class Child {
 
   /// A descriptor that becomes readable when part of the result has arrived, and when the child has ended.
   int pipe() const { return pipe_; }
-  /// Reads what has arrived; false once there will be no more.
+  /// Reads available data; false once there is no more to come.
   bool read();
-  /// Whether it has taken longer than it may.
+  /// Whether it has exceeded its time limit.
   bool overdue() const;
   /// Waits for its end; one that is overdue is killed. Once.
   ChildExit end();
@@ -96,9 +96,9 @@ void probe_drivers_in_child();
 
 // Prints answers of drivers, which may crash.
 
-/// Prints in a process of its own, since a driver that aborts takes its process along; what the driver prints by itself
-/// goes to driver_log(). On Windows in this one. Returns how that ended, or nothing if it came to its end. Throws
-/// OutputError if not all that it printed arrived.
+/// Prints in a separate process, since a driver that aborts ends its process; the output of the driver itself goes to
+/// driver_log(). On Windows it prints in this process. Returns the way in which the process crashed, or nothing if it
+/// ended normally. Throws OutputError if not all of its output arrived.
 std::string print_in_child(void (*print)());
 
 }  // namespace tyglab

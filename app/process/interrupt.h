@@ -6,7 +6,7 @@
 
 namespace tyglab {
 
-/// What those do while one lives; afterwards they do what they did before.
+/// Sets the signal handlers while the object lives; afterward the former handlers are restored.
 class SignalHandler {
  public:
   explicit SignalHandler(void (*handler)(int));
@@ -19,7 +19,7 @@ class SignalHandler {
   std::unique_ptr<Before> before_;
 };
 
-/// While one lives, Ctrl-C (or SIGTERM, SIGHUP) says so and ends the program at once with exit code 130.
+/// While one lives, Ctrl-C (or SIGTERM, SIGHUP) prints a message and ends the program at once with exit code 130.
 class InterruptExit {
  public:
   InterruptExit();

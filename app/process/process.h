@@ -22,7 +22,7 @@ bool display_is_named();
 /// Gives up the console that a program for terminals gets where it is started by a double-click; its last words are
 /// kept for show_last_words(). Only Windows does so: elsewhere nothing.
 void leave_own_console();
-/// Shows in a dialog what went wrong, where it ended with an exit code other than 0 and has no terminal for it.
+/// Shows the error message in a dialog if the program ended with an exit code other than 0 and has no terminal.
 void show_last_words(int exit_code);
 
 /// Ends the process, after a sentence on standard error. May be called from a signal handler.

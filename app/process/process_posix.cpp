@@ -74,14 +74,14 @@ std::string memory_limit_words() {
   const auto limit = memory_limit();
   if (!limit) return {};
   return " This process may use " + std::to_string(*limit >> 20) +
-         " MB of memory at most (ulimit -v); raise that limit, or ask for less.";
+         " MB of memory at most (ulimit -v); raise that limit, or use less memory.";
 }
 
 CrashExplainer::CrashExplainer() {
   if (!memory_limit()) return;
   last_sentence_size = std::size_t(std::snprintf(
       last_sentence.data(), last_sentence.size(),
-      "tyglab: A crash, as of graphics and OpenCL drivers that are refused memory.%s\n", memory_limit_words().c_str()));
+      "tyglab: Crashed, as graphics and OpenCL drivers do when memory is denied.%s\n", memory_limit_words().c_str()));
   for (const int signal : crashes) std::signal(signal, end_with_sentence);
   explains = std::atexit(explain_exit) == 0;
 }

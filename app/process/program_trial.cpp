@@ -42,7 +42,7 @@ std::string chatter_words(const std::string& chatter) {
   std::string first = chatter.substr(0, chatter.find('\n'));
   constexpr std::size_t most = 200;
   if (first.size() > most) first = first.substr(0, most) + "…";
-  std::string words = " It said: " + first + ".";
+  std::string words = " Its output: " + first + ".";
   const std::filesystem::path log = driver_log();
   std::error_code error;
   if (log.empty() || (std::filesystem::create_directories(log.parent_path(), error), error)) return words;
@@ -51,13 +51,13 @@ std::string chatter_words(const std::string& chatter) {
   } catch (const OutputError&) {
     return words;  // there may be no room for it either
   }
-  return words + " The rest is in " + log.string() + ".";
+  return words + " The complete output is in " + log.string() + ".";
 }
 
 /// What became of the child, as part of a sentence; empty if it ended in good order.
 std::string death_of(const ProgramExit& exit) {
   constexpr int exit_done = 0, exit_engine = 5;  // ExitCode of app/cli/command_line.h
-  if (exit.timed_out) return "did not come to an end within three minutes";
+  if (exit.timed_out) return "did not finish within three minutes";
   if (exit.signal != 0) return "crashed (" + signal_words(exit.signal) + ")";
   if (exit.code && exit.code != exit_done && exit.code != exit_engine)
     return "ended the process (exit code " + std::to_string(*exit.code) + ")";
@@ -71,9 +71,8 @@ std::string try_in_child(const Preset& preset, bool contacts) {
                                        {.input = preset_to_json(small_cloth(preset)), .most_seconds = most_seconds});
   const std::string death = death_of(exit);
   if (death.empty()) return {};
-  return "The OpenCL driver " + death + " when the kernels were tried in a process of their own." +
-         chatter_words(exit.output) + " " + std::string(opencl::how_to_mend_a_driver()) +
-         ", or use the CPU engine (--engine cpu).";
+  return "The OpenCL driver " + death + " when a separate process tried the kernels." + chatter_words(exit.output) +
+         " " + std::string(opencl::how_to_mend_a_driver()) + ", or use the CPU engine (--engine cpu).";
 }
 
 }  // namespace

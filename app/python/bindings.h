@@ -26,19 +26,19 @@ Preset with_constants(const Preset& preset, const py::dict& constants);
 /// Raises tyglab.Diverged.
 [[noreturn]] void raise_diverged(const Divergence& divergence);
 
-/// Asks for Ctrl-C in the interpreter now and then, while the work goes on without its lock.
+/// Checks for Ctrl-C in the interpreter now and then, while the work runs without its lock.
 class Interrupt {
  public:
   /// To be asked from the thread that works.
   Stop stop();
-  /// Throws KeyboardInterrupt, or what another signal's handler raised, if that is why the work ended. With the lock.
+  /// Throws KeyboardInterrupt, or the exception of another signal handler, if it ended the work. Requires the lock.
   void raise() const;
 
  private:
   bool raised_ = false;
 };
 
-/// Lets the interpreter go on while `work(stop)` runs, and ends it by Ctrl-C.
+/// Lets other Python threads run during `work(stop)`, which Ctrl-C ends.
 template <class Work>
 auto beside_python(const Work& work) {
   Interrupt interrupt;

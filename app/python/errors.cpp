@@ -43,15 +43,15 @@ void raise_diverged(const Divergence& divergence) {
 
 void add_errors(py::module_& module) {
   errors().preset = new_error(module, "PresetError", PyExc_ValueError,
-                              "A preset or a constant is wrong: the message names it and what is allowed.");
+                              "A preset or a constant is wrong: the message names it and the allowed values.");
   errors().engine =
-      new_error(module, "EngineError", PyExc_RuntimeError, "The engine, or its device, is not there or is lost.");
-  errors().diverged = new_error(module, "Diverged", PyExc_ArithmeticError,
-                                "A step diverged; the simulation holds the state before it. `divergence` tells when, "
-                                "where and why.");
+      new_error(module, "EngineError", PyExc_RuntimeError, "The engine or its device is missing or was lost.");
+  errors().diverged = new_error(
+      module, "Diverged", PyExc_ArithmeticError,
+      "A step diverged; the simulation keeps the state before that step. `divergence` reports time, place and cause.");
   errors().tolerance = new_error(module, "ToleranceError", PyExc_ValueError,
-                                 "No setting can be promised to reach the error asked for. `tightest`: the smallest "
-                                 "error that can be (m), or None.");
+                                 "No setting is guaranteed to reach the requested error. `tightest`: the smallest "
+                                 "error that can be guaranteed (m), or None.");
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);

@@ -66,30 +66,30 @@ Preset with_constants(const Preset& preset, const py::dict& constants) {
 }
 
 void add_preset(py::module_& module) {
-  module.def("presets", &shipped_presets, "The names of the presets that come with Tyglab.");
-  py::class_<Preset> preset(
-      module, "Preset",
-      "Everything that defines a scene: its constants, by the keys of the notation table (docs/notation.md) "
-      "and of --set. Preset() is the default cloth, Preset(k_s=200, integrator=\"rk4\") the same with other "
-      "constants. A wrong key or value raises PresetError and changes nothing.");
+  module.def("presets", &shipped_presets, "Names of the shipped presets.");
+  py::class_<Preset> preset(module, "Preset",
+                            "A scene: all of its constants, under the keys of the notation table (docs/notation.md) "
+                            "and of --set. Preset() is the default cloth; Preset(k_s=200, integrator=\"rk4\") changes "
+                            "two constants. A wrong key or value raises PresetError and changes nothing.");
   refuse_objects_without_value(preset);
   preset.def(py::init([](const py::kwargs& constants) { return with_constants({}, constants); }))
       .def_static(
           "load", [](const std::string& name) { return read_preset(find_preset(name).file); }, py::arg("name"),
           "Reads a shipped preset by its name (presets()), or else a preset file.")
-      .def_static("from_json", &from_json, py::arg("text"), "Reads the text of a preset file.")
-      .def("to_json", &preset_to_json, "The text of its preset file.")
+      .def_static("from_json", &from_json, py::arg("text"), "Parses the text of a preset file.")
+      .def("to_json", &preset_to_json, "The preset as the text of a preset file.")
       .def(
           "save", [](const Preset& preset, const std::filesystem::path& file) { write_preset(preset, file); },
-          py::arg("file"), "Writes a preset file, beside the older one until it is whole. Raises OSError.")
+          py::arg("file"),
+          "Writes a preset file. An older file is replaced only when the new one is complete. Raises OSError.")
       .def_static("keys", &keys, "The keys of all constants.")
-      .def("to_dict", &as_dict, "All constants as a preset file has them, block by block: a copy.")
+      .def("to_dict", &as_dict, "A copy of all constants, in the blocks of a preset file.")
       .def("__getitem__", &constant)
       .def("__setitem__", [](Preset& preset, const std::string& key,
                              const py::object& value) { preset = with_constant(preset, key, value); })
       .def(
           "but", [](const Preset& preset, const py::kwargs& constants) { return with_constants(preset, constants); },
-          "A copy with other constants: preset.but(dt=0.0005).")
+          "A copy with some constants changed: preset.but(dt=0.0005).")
       .def(
           "__eq__", [](const Preset& a, const Preset& b) { return a == b; }, py::is_operator())
       .def("__repr__", &described)

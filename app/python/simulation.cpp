@@ -51,7 +51,7 @@ class Motion {
   }
 
   const Simulation& at_rest() const {
-    if (stepping_) throw std::runtime_error("This simulation is making steps in another thread; wait for it.");
+    if (stepping_) throw std::runtime_error("Another thread is stepping this simulation; wait until it is done.");
     return *simulation_;
   }
   Simulation& at_rest() { return const_cast<Simulation&>(std::as_const(*this).at_rest()); }
@@ -75,7 +75,7 @@ class Motion {
     follow();
   }
   void restore(const Snapshot& then) {
-    if (!at_rest().fits(then)) throw py::value_error("the snapshot is of a cloth with other rows or columns");
+    if (!at_rest().fits(then)) throw py::value_error("the snapshot belongs to a cloth with other rows or columns");
     at_rest().restore(then);
     follow();
   }
@@ -253,7 +253,7 @@ void grab(Motion& motion, int i, int j) {
 }
 
 void move_hand(Motion& motion, const Vector& to, int steps) {
-  if (!motion.at_rest().held()) throw py::value_error("the hand holds nothing; grab a particle first");
+  if (!motion.at_rest().held()) throw py::value_error("the hand holds no particle; grab one first");
   if (steps < 1) throw py::value_error("the hand needs at least one step");
   for (const double value : to) motion.check(value, "the hand's position");
   motion.apply(edit::MoveHand{from(to), steps});
@@ -267,13 +267,14 @@ void move_body(Motion& motion, int index, const Vector& c) {
 }
 
 void add_divergence(py::module_& module) {
-  py::class_<Divergence> type(module, "Divergence", "When, where and why a run diverged.");
+  py::class_<Divergence> type(module, "Divergence", "Time, place and cause of a divergence.");
   refuse_objects_without_value(type);
   type.def_readonly("t", &Divergence::t, "End of the step that diverged, s.")
       .def_readonly("step", &Divergence::step, "Number of that step, from 1.")
       .def_property_readonly("where", &Divergence::where, "The particle or the spring.")
       .def_readonly("quantity", &Divergence::quantity)
-      .def_readonly("value", &Divergence::value, "Of that quantity, in its SI unit; may be infinite or not a number.")
+      .def_readonly("value", &Divergence::value,
+                    "Value of that quantity, in its SI unit; may be infinite or not a number.")
       .def_readonly("cause", &Divergence::cause)
       .def_readonly("advice", &Divergence::advice)
       .def("__str__", &Divergence::in_words);
@@ -283,19 +284,20 @@ void add_divergence(py::module_& module) {
 
 void add_simulation(py::module_& module) {
   add_divergence(module);
-  py::class_<Snapshot> snapshot(module, "Snapshot", "The motion at a moment, to go back to.");
+  py::class_<Snapshot> snapshot(module, "Snapshot", "A stored state of a motion, for restore().");
   refuse_objects_without_value(snapshot);
   snapshot.def_readonly("time", &Snapshot::t, "s");
 
   using Class = py::class_<Motion>;
   Class motion(
       module, "Simulation",
-      "One cloth, or a mass on a spring, in motion: the same steps to the last bit as `tyglab run` makes, for any "
-      "number of threads. One Python thread at a time may use it; other threads go on while it makes steps.");
+      "A cloth, or a mass on a spring, in motion. Its steps equal those of `tyglab run` to the last bit, with any "
+      "number of threads. Only one Python thread at a time may use it; other threads continue while it makes steps.");
   refuse_objects_without_value(motion);
   motion.def(py::init<const Preset&, int>(), py::arg("preset") = Preset{}, py::arg("threads") = 1)
       .def("step", &Motion::step, py::arg("steps") = 1,
-           "Makes that many steps of dt and returns how many it made: fewer after Ctrl-C alone. Raises Diverged.")
+           "Makes `steps` steps of dt and returns the number of steps made, which is smaller only after Ctrl-C. Raises "
+           "Diverged.")
       .def(
           "run",
           [](Motion& m, double seconds) {
@@ -303,79 +305,74 @@ void add_simulation(py::module_& module) {
             if (!(steps >= 0 && steps <= 2e9)) throw py::value_error("seconds must be a time that steps can reach");
             return m.step(int(std::lround(steps)));
           },
-          py::arg("seconds"), "Makes the whole steps that come nearest to that much simulated time. As step().")
+          py::arg("seconds"),
+          "Makes as many whole steps as come nearest to `seconds` of simulated time; otherwise like step().")
       .def(
           "restart", [](Motion& m) { m.apply(edit::Restart{}); },
-          "Back to the start with the present constants; tears are mended.")
+          "Returns to the start with the present constants and mends all tears.")
       .def(
           "change",
           [](Motion& m, const py::kwargs& constants) {
             m.apply(edit::Change{with_constants(m.at_rest().preset(), constants)});
           },
-          "Changes constants while the cloth moves: simulation.change(k_s=200). Those that count at the start wait for "
-          "a "
-          "restart. Raises PresetError.")
+          "Changes constants while the cloth moves: simulation.change(k_s=200). Constants of the start take effect at "
+          "the next restart. Raises PresetError.")
       .def_property(
           "preset", [](const Motion& m) { return m.at_rest().preset(); },
           [](Motion& m, const Preset& preset) { m.apply(edit::Change{preset}); },
-          "The present constants: a copy. To assign one changes those that differ.")
+          "A copy of the present constants. Assigning a preset changes the constants that differ.")
       .def_property_readonly(
           "time", [](const Motion& m) { return m.at_rest().time(); }, "Simulated time, s.")
       .def_property_readonly(
           "steps", [](const Motion& m) { return m.at_rest().steps(); }, "Steps made since the start.")
       .def_property_readonly(
-          "engine", [](const Motion& m) { return m.at_rest().engine().name(); }, "What makes the steps, in words.")
+          "engine", [](const Motion& m) { return m.at_rest().engine().name(); },
+          "Name of the engine that makes the steps.")
       .def_property_readonly(
-          "divergence", [](const Motion& m) { return m.at_rest().divergence(); },
-          "When, where and why it diverged, or None.");
+          "divergence", [](const Motion& m) { return m.at_rest().divergence(); }, "The divergence, or None.");
   motion
-      .def_property_readonly(
-          "positions", &Motion::positions,
-          "Positions, m: (rows, columns, 3), read-only. It shares the simulation's memory and shows the "
-          "present after every step; copy() it to keep a moment. After a change of rows or columns it "
-          "keeps the old cloth.")
+      .def_property_readonly("positions", &Motion::positions,
+                             "Positions, m: (rows, columns, 3), read-only. The array shares the simulation's memory "
+                             "and changes with every step; use copy() to keep its values. After a change of rows or "
+                             "columns, an older array keeps the old cloth.")
       .def_property_readonly("velocities", &Motion::velocities,
-                             "Velocities at the time of the positions, m/s: (rows, columns, 3), as positions.")
+                             "Velocities at the time of the positions, m/s: an array like positions.")
       .def("load", &Motion::load, py::arg("positions"), py::arg("velocities"),
-           "Puts positions (m) and velocities (m/s), both (rows, columns, 3), in place of the present ones; time, "
-           "tears and "
-           "constants stay.")
-      .def(
-          "particle", &particle, py::arg("i"), py::arg("j"),
-          "What table B.1 says of a particle: the forces F, F_s, F_b, F_d, F_g, F_int, F_ext (N), x (m), v (m/s) and a "
-          "(m/s^2), each an array (3,); and whether it is pinned or held.")
-      .def_property_readonly("energy", &energy, "J: kinetic, stretch, bending, gravity (0 at y = 0) and total.")
+           "Replaces positions (m) and velocities (m/s), both (rows, columns, 3); time, tears and constants are kept.")
+      .def("particle", &particle, py::arg("i"), py::arg("j"),
+           "The variables of table B.1 for a particle: the forces F, F_s, F_b, F_d, F_g, F_int, F_ext (N), x (m), v "
+           "(m/s) and a (m/s^2), each an array (3,); and whether the particle is pinned or held.")
+      .def_property_readonly("energy", &energy,
+                             "Energies in J: kinetic, stretch, bending, gravity (0 at y = 0) and total.")
       .def(
           "enable_ledger", [](Motion& m, bool on) { m.at_rest().enable_ledger(on); }, py::arg("on") = true,
-          "Keeps the energy ledger from now on. Each step then takes several times as long, and is the same.")
-      .def_property_readonly(
-          "ledger", &ledger,
-          "Where the energy went since the ledger began, J, or None: work of damping, contact, tearing, "
-          "wind, hand and edits; unexplained is what the method made (above 0) or removed.")
+          "Keeps the energy ledger from now on. Each step then takes several times as long, with the same result.")
+      .def_property_readonly("ledger", &ledger,
+                             "Work since the ledger began, J, or None: of damping, contact, tearing, wind, hand and "
+                             "edits; unexplained is the energy that the method added (above 0) or removed.")
       .def_property_readonly(
           "solves", &solves,
-          "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
-          "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
-          "force_evaluations, unconverged (steps), unconverged_by_rounding (those of them that would need more digits: "
-          "precision=\"double\"), ended_early (those of them that limit_steps ended), "
-          "longest_limited (the longest step with such a limit, s of real time) and "
-          "worst_residual, in parts of the largest force.")
+          "Work of the solver since the start, or None for methods that solve no equations: newton_steps (of Newton's "
+          "method or the interior-point method, or passes of methods that make a fixed number of them), linear_steps, "
+          "force_evaluations, unconverged (steps), unconverged_by_rounding (the unconverged steps that need more "
+          "digits: precision=\"double\"), ended_early (the unconverged steps that limit_steps ended), longest_limited "
+          "(real time of the longest step with such a limit, s) and worst_residual (relative to the largest force).")
       .def("limit_steps", &limit_steps, py::arg("seconds"),
-           "From now on a step of implicit_euler, projective_dynamics or vbd ends with what it has found once it has "
-           "taken so long, s; 0: no limit. The motion then depends on the machine. Raises ValueError for negative "
+           "Limits the real time of a step of implicit_euler, projective_dynamics or vbd, s; 0: no limit. At the limit "
+           "a step keeps its current result, so the motion depends on the machine. Raises ValueError for negative "
            "numbers.")
-      .def_property_readonly("dt_crit", &worst_case_limit,
-                             "Largest stable dt in any shape of the cloth, by linear theory, s: infinite where the "
-                             "method has no limit.")
+      .def_property_readonly(
+          "dt_crit", &worst_case_limit,
+          "Largest stable dt in any shape of the cloth, by linear theory, s; infinite if the method has no limit.")
       .def_property_readonly("dt_crit_now", &own_limit,
-                             "The same for the cloth as it hangs now: advice, no promise. Takes about half a minute "
-                             "for 400 x 400 particles; Ctrl-C ends it.")
+                             "Largest stable dt in the present shape of the cloth, s: a guide, not a guarantee. The "
+                             "computation takes about half a minute for 400 x 400 particles; Ctrl-C ends it.")
       .def_property_readonly(
           "torn", [](const Motion& m) { return m.at_rest().tears().torn_count(); },
           "Stretch springs that are torn or cut.");
-  motion.def("grab", &grab, py::arg("i"), py::arg("j"), "The hand takes that particle, which must not be pinned.")
+  motion.def("grab", &grab, py::arg("i"), py::arg("j"), "The hand grabs the particle (i, j), which must not be pinned.")
       .def("move_hand", &move_hand, py::arg("to"), py::arg("steps") = 1,
-           "The hand goes there (m), evenly over the next steps.")
+           "The hand moves to the position `to` (m), evenly over the next steps.")
       .def(
           "release", [](Motion& m) { m.apply(edit::Release{}); }, "The hand lets go.")
       .def_property_readonly(
@@ -386,20 +383,22 @@ void add_simulation(py::module_& module) {
           },
           "The particle (i, j) in the hand, or None.")
       .def("cut", &cut, py::arg("particles"),
-           "These particles, [(i, j), ...], lose their springs upward (section 2.3.4).")
+           "Cuts the upward springs of these particles, [(i, j), ...] (section 2.3.4).")
       .def(
           "pin",
           [](Motion& m, int i, int j, bool pinned) {
             m.check(i, j), m.apply(edit::Pin{i, j, pinned});
           },
-          py::arg("i"), py::arg("j"), py::arg("pinned") = true, "Pins that particle where it is, or frees it.")
+          py::arg("i"), py::arg("j"), py::arg("pinned") = true,
+          "Pins the particle (i, j) at its position, or frees it.")
       .def("move_body", &move_body, py::arg("index"), py::arg("c"),
            "Moves a body: a sphere's center, or c[1] as a plane's height, m.");
   motion
       .def(
-          "snapshot", [](Motion& m) { return m.at_rest().snapshot(); }, "The present motion, to go back to.")
+          "snapshot", [](Motion& m) { return m.at_rest().snapshot(); },
+          "Stores the present state of the motion for restore().")
       .def("restore", &Motion::restore, py::arg("snapshot"),
-           "Goes back to a snapshot, with the present constants; a divergence is forgotten.")
+           "Returns to a snapshot with the present constants, and discards a divergence.")
       .def(
           "save_state",
           [](Motion& m, const std::filesystem::path& file) { write_output(file, state_csv(m.at_rest())); },

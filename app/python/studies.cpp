@@ -94,7 +94,7 @@ py::list find_settings(const Preset& preset, double error, double seconds) {
 }
 
 py::tuple exact_motion(const Preset& preset, const py::array_t<double>& t) {
-  if (preset.kind != Kind::one_weight) throw py::value_error("a closed form is known of a mass on a spring alone");
+  if (preset.kind != Kind::one_weight) throw py::value_error("a closed form is known only for a mass on a spring");
   for (const auto& time : t.attr("flat"))
     if (!(time.cast<double>() >= 0)) throw py::value_error("t must not be negative");
   auto y = py::vectorize([&](double time) { return exact_weight(preset, time).y; });
@@ -108,24 +108,22 @@ void add_studies(py::module_& module) {
   py::list methods;
   for (const Scheme& method : schemes()) methods.append(std::string(method.name));
   module.attr("integrators") = py::tuple(methods);
-  module.def(
-      "stability", &stability, py::arg("preset"),
-      "What linear theory says of the preset's dt: its `zone` in words, and two limits of dt (s). Up to "
-      "worst_case_limit the method is stable in any shape of the cloth (0: at no dt), above every_shape_limit it is "
-      "unstable in every shape; infinite where the method has no limit.");
+  module.def("stability", &stability, py::arg("preset"),
+             "The preset's dt in linear theory: its `zone` in words, and two limits of dt (s). Up to worst_case_limit "
+             "the method is stable in any shape of the cloth (0: at no dt); above every_shape_limit it is unstable in "
+             "every shape. A limit is infinite if the method has none.");
   module.def(
       "error_study", &error_study, py::arg("preset"), py::arg("seconds") = 1.0,
       "Measures the error of the preset's settings against a finer reference: {error: m, root mean square over the "
-      "particles, infinite where it diverged; cost: processor seconds for a simulated second; resolved: False where "
-      "the error is too small to be told; converged; seconds of motion that were compared; ...}.");
-  module.def(
-      "work_precision", &work_precision, py::arg("preset"), py::arg("integrators"), py::arg("seconds") = 1.0,
-      "Error and cost of each method at dt after dt, the coarsest stable one first, each half of the one before: a "
-      "list as error_study().");
-  module.def(
-      "find_settings", &find_settings, py::arg("preset"), py::arg("error"), py::arg("seconds") = 1.0,
-      "The cheapest setting of each method whose positions are off by at most `error` (m), the cheapest first, as "
-      "error_study() with the `preset` that has it. Raises ToleranceError where none can be promised.");
+      "particles, infinite after a divergence; cost: processor seconds per simulated second; resolved: False if the "
+      "error is too small to be measured; converged; seconds: length of the motion that was compared; ...}.");
+  module.def("work_precision", &work_precision, py::arg("preset"), py::arg("integrators"), py::arg("seconds") = 1.0,
+             "Error and cost of each method for decreasing dt, from the largest stable dt on, halved each time: a list "
+             "of dictionaries like that of error_study().");
+  module.def("find_settings", &find_settings, py::arg("preset"), py::arg("error"), py::arg("seconds") = 1.0,
+             "The cheapest setting of each method with an error of at most `error` (m), the cheapest method first: "
+             "dictionaries like that of error_study(), with the `preset`. Raises ToleranceError if no setting can be "
+             "guaranteed.");
   module.def(
       "exact_motion", &exact_motion, py::arg("preset"), py::arg("t"),
       "Height (m) and velocity (m/s) of a mass on a spring at the times t (s), in closed form: two arrays of the "

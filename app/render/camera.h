@@ -54,7 +54,7 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// Camera::project for many points: what depends on the camera alone is worked out once.
+/// Camera::project for many points: the terms that depend only on the camera are computed once.
 class Projector {
  public:
   Projector(const Camera& camera, glm::vec2 size);
@@ -78,10 +78,10 @@ struct Bounds {
 
 /// The box of all finite particles.
 Bounds bounds(const PositionView& positions);
-/// The box of a preset's start and of where it will hang, with its spheres: what a first look should see.
+/// The box of a preset's start and of its place at rest, with its spheres: the first view of the scene.
 Bounds scene_bounds(const Preset& preset);
-/// A camera in the house's favorite direction that frames scene_bounds, between what covers those parts of the
-/// picture's height along its upper and lower edge, so that the cloth takes that part of what is left.
+/// A camera in the default direction that frames scene_bounds, between what covers those parts of the picture's height
+/// along its upper and lower edge, so that the cloth takes that part of what is left.
 Camera scene_camera(const Preset& preset, float aspect, float covered = 0, float below = 0, float filled = 0.84f);
 /// The same camera as long as it shows the cloth well, whose particles are now within that box; otherwise it frames the
 /// box, with the spheres beside it. Of an empty box nothing is known.
@@ -97,7 +97,7 @@ struct PicturePart {
 /// The part that holds a box; the whole picture where the box reaches behind the camera, none where all of it is there.
 std::optional<PicturePart> part_of_picture(const Camera& camera, const Bounds& box, float aspect);
 
-/// Height of the plane that a cloth lands on: the highest one below its start; none where it falls for ever.
+/// Height of the plane on which a cloth lands: the highest one below its start; none if there is no plane below.
 std::optional<double> floor_height(const Preset& preset);
 /// Height of the drawn ground: that plane's, or else a little below all that scene_bounds holds.
 double ground_height(const Preset& preset);

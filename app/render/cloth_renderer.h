@@ -36,7 +36,7 @@ struct Palette {
   glm::vec3 plane{0.247f, 0.271f, 0.318f};  // #3F4551
   bool operator==(const Palette&) const = default;
 };
-/// Of the light themes.
+/// The colors of the light themes.
 inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f},     // #E9EDF2
                                        .background_bottom = {0.761f, 0.796f, 0.843f},  // #C2CBD7
                                        .grid = {0.518f, 0.565f, 0.631f},               // #8490A1
@@ -49,14 +49,14 @@ inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f
                                        .body = {0.545f, 0.569f, 0.608f},
                                        .plane = {0.925f, 0.929f, 0.937f}};  // #ECEDEF
 
-/// Which values the ends of the color map stand for, and whether the colors between them follow the square root.
+/// The values at the ends of the color map, and whether the colors between them follow the square root.
 struct ValueRange {
   float lo = 0, hi = 1;
   bool root = false;
   bool operator==(const ValueRange&) const = default;
 };
 
-/// How the viewport shows things. Widths and sizes in pixels of the target.
+/// The look of a picture. Widths and sizes are in pixels of the target.
 struct ViewOptions {
   int mode = 1;          ///< 1 triangles, 2 connections, 3 both, 4 outlines, 5 points
   bool bending = false;  ///< bending springs too, in view 2
@@ -85,7 +85,7 @@ struct VertexWriter {
   DrawnSites sites;
 };
 
-/// What is drawn, apart from where it comes from (Simulation, or a test).
+/// The drawn scene, independent of its source (Simulation, or a test).
 struct ClothScene {
   PositionView positions;  ///< with a writer only its sizes
 
@@ -96,7 +96,7 @@ struct ClothScene {
   std::optional<VertexWriter> writer = {};
 };
 
-/// What updates and drawings took; 0: it was skipped.
+/// The times of updates and drawings; 0: skipped.
 struct RenderWork {
   Duration normals, upload;
   Duration index_lists;  ///< what a view draws of them: made again where it lacks some
@@ -130,7 +130,7 @@ class ClothRenderer {
 
   /// Takes a picture as the cloth's texture. A bad file gives a sentence about it, and the old texture stays.
   std::optional<std::string> set_texture(const std::filesystem::path& file);
-  /// The same of a picture that has been read already.
+  /// The same with a picture that has been read already.
   std::optional<std::string> set_texture(const ClothPicture& picture);
 
   /// Lends the simulation's engine memory of OpenGL's, if it can use it, so that its positions need not be copied. The
@@ -143,9 +143,9 @@ class ClothRenderer {
   /// The same without a Simulation. `topology_changed`: lattice, tears or pins differ from last time.
   void update(const ClothScene& scene, const ViewOptions& options, bool topology_changed);
 
-  /// What colors this cloth: a value of each particle that is drawn, row after row. One that is not a number is gray.
+  /// The values that color this cloth: one per drawn particle, row by row. Not-a-number is gray.
   void set_values(std::span<const float> values, int rows, int columns);
-  /// The colors from the least value to the greatest, as bytes red, green, blue, opacity; siblings have the same.
+  /// The colors from the smallest to the largest value, as bytes red, green, blue, opacity; siblings share them.
   void set_color_map(std::span<const std::uint32_t> colors);
 
   /// Draws into its own multisampled target of that size (pixels) and resolves it. Restores framebuffer and viewport.
@@ -154,15 +154,15 @@ class ClothRenderer {
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
-  /// What the graphics card took for the last drawing that it has reported, ms: a frame or two ago; 0 before that.
+  /// The time of the graphics card for the last drawing that it has reported, ms: a frame or two ago; 0 before that.
   double drawn_ms();
-  /// What was done since the last call.
+  /// The work done since the last call.
   RenderWork take_work();
-  /// The box of the particles as they were updated last.
+  /// The box of the particles at the last update.
   const Bounds& bounds() const;
-  /// Of the buffers that grow with the cloth, and what is lent to siblings' engines too.
+  /// Size of the buffers that grow with the cloth, including memory lent to siblings' engines.
   std::size_t bytes() const;
-  /// What was drawn last.
+  /// The picture drawn last.
   Image pixels() const;
 
  private:

@@ -19,7 +19,7 @@
 
 namespace tyglab {
 
-/// What only a cloth needs that is colored by values.
+/// The parts that only a cloth colored by values needs.
 struct ColoredCloth {
   gl::Program cloth{{"cloth.vert", "cloth.frag", "COLORED"}};
   gl::Program frayed{{"fray.vert", "fray.frag", "COLORED"}};
@@ -28,7 +28,7 @@ struct ColoredCloth {
   ValueTexture map{GL_LINEAR};
 };
 
-/// What cloths of one window share.
+/// The parts that all cloths of a window share.
 struct ClothRenderer::Shared {
   gl::Program background{{"background.vert", "background.frag"}};
   gl::Program ground{{"ground.vert", "ground.frag"}};
@@ -49,7 +49,7 @@ struct ClothRenderer::Shared {
 };
 
 struct ClothRenderer::Parts {
-  /// Where each texture is bound while the cloth is drawn.
+  /// The texture units used while the cloth is drawn.
   static constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3, positions_unit = 4,
                        lines_unit = 5, normals_unit = 6;
   static inline const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));

@@ -19,8 +19,7 @@ ClothPicture read_picture(const std::filesystem::path& file);
 
 class ClothTexture {
  public:
-  /// What the driver can do. It is asked once: in a browser every answer waits until all that was drawn so far is
-  /// there.
+  /// Limits of the driver. They are requested once: in a browser every answer waits until all earlier drawing is done.
   struct Driver {
     float anisotropy;  ///< of the filter; 1: none
     int largest;       ///< pixels a side

@@ -18,7 +18,7 @@
 
 namespace tyglab {
 
-/// Which colors stand for values.
+/// The kind of color map.
 struct ColorMap {
   /// From blue over a pale middle to vermilion, both ends equally dark; otherwise from blue over green to pale yellow,
   /// lightness rising evenly.
@@ -59,7 +59,7 @@ struct FieldColors {
   ParticleField field;
   std::optional<double> fixed = {};  ///< the top as somebody has set it
   SteadyTop automatic = {};
-  std::optional<FieldSpan> seen = {};  ///< of the values that were looked at last
+  std::optional<FieldSpan> seen = {};  ///< of the values of the last look
 
   double top() const { return fixed.value_or(automatic.now() > 0 ? automatic.now() : 1); }
   ValueRange range() const { return {info(field).is_signed ? -float(top()) : 0.f, float(top()), root_scale(field)}; }

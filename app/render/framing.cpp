@@ -1,4 +1,4 @@
-// What a first look at a preset should hold, and a later one at a cloth that is somewhere else by now.
+// Frames the whole scene when a preset is opened, and later the cloth at its present place.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

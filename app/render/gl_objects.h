@@ -16,7 +16,7 @@
 
 namespace tyglab {
 
-/// OpenGL (or EGL) cannot do what is asked. `what()` says what and how to fix it; a shader's log is in it.
+/// An error of OpenGL (or EGL). `what()` names the problem and the remedy, with the log of a shader.
 class GraphicsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -46,7 +46,7 @@ class Object {
   GLuint id_;
 };
 
-/// Of what OpenGL names in lists: glGenX and glDeleteX by their addresses.
+/// Traits of objects that OpenGL creates in lists: glGenX and glDeleteX by their addresses.
 template <auto generate, auto destroy_listed>
 struct ListTraits {
   static GLuint make() {
@@ -123,10 +123,10 @@ float grid_spacing(float radius);
 
 class DrawTimer {
  public:
-  /// What is drawn between these two is measured, unless an earlier drawing still is.
+  /// Measures the drawing between these two calls, unless an earlier measurement is pending.
   void begin();
   void end();
-  /// Of the last drawing that is known, ms; 0 before the first.
+  /// Time of the last measured drawing, ms; 0 before the first.
   double ms();
 
  private:

@@ -22,7 +22,7 @@ struct Image {
 /// Writes a PNG (write_output). Returns where it is. Throws OutputError.
 std::filesystem::path write_png(const std::filesystem::path& file, const Image& image, Reach reach = Reach::whole);
 
-/// The part between two corners, pixels from the upper left one; what lies outside the picture is left out.
+/// The part between two corners, in pixels from the upper left one, limited to the picture.
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi);
 
 /// A picture with more pixels a side than are allowed.
@@ -35,7 +35,7 @@ struct ImageTooLarge : std::runtime_error {
 /// most 64 MB as a file and 4096 pixels a side, plenty for a cloth; a JPEG may have 32768 and is scaled down while it
 /// is read. Throws std::runtime_error with a sentence that names the file and the fix.
 Image read_image(const std::filesystem::path& file);
-/// The same of a file's content; errors call it by that name.
+/// Decodes the content of a file; `name` names it in errors.
 Image decode_image(std::span<const unsigned char> bytes, const std::string& name);
 
 /// A picture, then its halves down to one pixel, each pixel the mean of four: against shimmering where it is drawn

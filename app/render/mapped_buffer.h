@@ -26,7 +26,7 @@ class MappedBuffer {
   std::byte* slot(int n) const { return first_ + std::size_t(n) * slot_bytes_; }
   std::size_t slot_bytes() const { return slot_bytes_; }
   std::size_t bytes() const { return whole_; }
-  /// Where that address stands in the buffer, bytes; none if it is not in it.
+  /// Offset of that address in the buffer, bytes; none if it is outside.
   std::optional<std::size_t> offset_of(const void* address) const;
   int slot_of(const void* address) const;
   /// The slot has been drawn from: by what was called so far.

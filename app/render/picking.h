@@ -28,7 +28,7 @@ std::optional<Hit> nearest_particle(const PositionView& positions, const Camera&
 std::vector<Pins::Site> particles_near_path(const PositionView& positions, const Camera& camera, glm::vec2 from,
                                             glm::vec2 to, glm::vec2 size, float reach_px);
 
-/// How far from the eye along the ray (of length 1) the near side of a sphere is, m; none where the ray misses it or it
+/// Distance from the eye along the ray (of length 1) to the near side of a sphere, m; none if the ray misses it or it
 /// lies behind.
 std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 center, double r);
 

@@ -11,7 +11,7 @@
 
 namespace tyglab {
 
-/// Where OpenGL finds a vector: a buffer, and how many bytes behind its beginning.
+/// The place of a vector in OpenGL: a buffer, and the offset in bytes.
 struct VertexSource {
   GLuint buffer = 0;
   std::size_t offset = 0;
@@ -32,7 +32,7 @@ class PositionLoans {
   /// Frees the memory of engines that are gone, unless it is drawn.
   void take_back();
   std::size_t bytes() const;
-  /// Why OpenGL has nothing to lend, a part of a sentence; empty: it has, or nobody has asked.
+  /// Why OpenGL has no memory to lend, part of a sentence; empty if it has, or none was requested.
   const std::string& problem() const { return problem_; }
 
  private:
@@ -67,7 +67,7 @@ class MappedNormals {
   /// They are somewhere else now.
   void free() { buffer_.reset(); }
   std::size_t bytes() const { return buffer_ ? buffer_->bytes() : 0; }
-  /// Why there is no room, a part of a sentence; empty: there is.
+  /// Why there is no room, part of a sentence; empty if there is.
   const std::string& problem() const { return problem_; }
 
  private:

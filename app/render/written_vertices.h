@@ -33,7 +33,7 @@ class WrittenVertices {
   /// Has the device write, and returns the bounds of the positions. The content of the very first buffer is read back
   /// and compared with them, since a driver may share in name only; `read` counts its bytes. Throws EngineError.
   Bounds write(VertexSharing& device, const VertexRequest& request, std::size_t& read);
-  /// It does not work here, for that reason: can() is false from now on.
+  /// Records that writing does not work here, and the reason: can() is false from now on.
   void fail(const std::string& why) { free(), problem_ = why; }
   /// Why it failed; empty: it did not.
   const std::string& problem() const { return problem_; }

@@ -30,9 +30,10 @@ class ClothColors {
 
   /// Takes a field, with an automatic scale, or none.
   void choose(std::optional<ParticleField> field);
-  /// Works out what the n-th picture lacks; of all pictures before any is drawn, since they share one scale.
+  /// Computes the missing values of the n-th picture; to be called for all pictures before any is drawn, since they
+  /// share one scale.
   void update(Scene& scene, int tile, int every);
-  /// Hands the renderer of that picture what it lacks.
+  /// Passes the missing values to the renderer of that picture.
   void give(Scene& scene, int tile, ClothRenderer& renderer);
   /// The value of a particle in the n-th picture; none where it is not known.
   std::optional<float> value(int tile, Pins::Site site) const;
@@ -40,7 +41,7 @@ class ClothColors {
   std::uint64_t version(int tile) const;
 
  private:
-  /// What the values of a picture are worked out from.
+  /// The source of the values of a picture.
   struct Source {
     const Simulation* cloth = nullptr;
     std::uint64_t revision = 0;
@@ -69,9 +70,9 @@ class ClothColors {
 
 /// Whether the viewport's ground is light, which asks for other colors.
 bool light_ground(const Scene& scene);
-/// Nothing where the cloth can be colored by that now; otherwise a sentence why not.
+/// Why the cloth cannot be colored by that field now, a sentence; empty if it can.
 std::string why_not_colored(const Scene& scene, ParticleField field);
-/// What colors the cloth at present; null where it has its own look.
+/// The field and scale that color the cloth at present; null if none do.
 const FieldColors* shown_colors(const Scene& scene);
 /// The field after the present one that can be shown, or after the last none.
 std::optional<ParticleField> next_field(const Scene& scene);

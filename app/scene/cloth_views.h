@@ -22,11 +22,11 @@ class ClothViews {
   void forget_copies() { copies_.clear(); }
   /// The texture with the n-th picture of the viewport; 0 where there is no OpenGL context to draw it in.
   unsigned picture(const Scene& scene, int tile) const;
-  /// The direction, pixels of the screen, in which the cloth of that picture has left it; none while it is seen there.
+  /// The direction, in pixels of the screen, in which the cloth has left that picture; none while it is visible.
   std::optional<glm::vec2> way_to_cloth(const Scene& scene, int tile) const;
 
  private:
-  /// What a picture shows.
+  /// The content of a picture.
   struct Drawn {
     const Simulation* cloth = nullptr;
     std::uint64_t revision = ~0ull;

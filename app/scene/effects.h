@@ -9,8 +9,8 @@
 namespace tyglab {
 
 /// Effects are left out in this order, one at a time, once drawing takes longer than too_long_ms averaged over a few
-/// frames; and brought back in the opposite order, if what they cost then would leave drawing well below that. Who has
-/// come back in vain stays away longer. Frames after a change of size do not count.
+/// frames; and brought back in the opposite order, if what they cost then would leave drawing well below that. An
+/// effect that came back in vain stays off longer. Frames after a change of size do not count.
 class Effects {
  public:
   static constexpr int count = 3;  ///< soft edges of shadows, smooth edges (multisampling), shadows at all
@@ -21,14 +21,14 @@ class Effects {
 
   Mode mode = Mode::automatic;
 
-  /// The pictures of a frame took so long, with the effects that apply() left.
+  /// Records the drawing time of a frame with the effects that apply() left.
   void drew(double ms);
   /// Size or scene have changed: what was measured tells nothing any more, and the next frames settle.
   void disturb();
-  /// How many are left out.
+  /// The number of effects that are left out.
   int left_out() const { return mode == Mode::all ? 0 : mode == Mode::few ? count : left_out_; }
   void apply(ViewOptions& view) const;
-  /// "soft shadows and smooth edges": what is turned off; empty: nothing is.
+  /// The effects that are turned off, "soft shadows and smooth edges"; empty if none is.
   std::string words() const;
 
  private:

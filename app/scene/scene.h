@@ -32,7 +32,7 @@ struct Scene {
   bool wants_framing = true;    ///< the camera is to frame the scene once the viewport's size is known
   bool camera_by_hand = false;  ///< it was turned, moved or zoomed since: a picture of another size frames nothing
 
-  /// Follows what became of the session since the last call.
+  /// Follows the changes of the session since the last call.
   void follow();
   /// Draws what has changed; `magnified`: pixels of the picture to one of the window.
   void draw(glm::vec2 magnified);

@@ -41,16 +41,16 @@ void visit_parts(Visit&& visit, SceneSketch& sketch) {
 /// EngineError, std::bad_alloc.
 SceneSketch sketch_of(const Preset& preset, const Stop& stop);
 
-/// How it stands before it moves: known at once. Throws EngineError, std::bad_alloc.
+/// The preset at its start, available at once. Throws EngineError, std::bad_alloc.
 SceneSketch sketch_at_start(const Preset& preset);
 
-/// The sketches of presets that were asked for, made one after the other: first those that are being looked at.
+/// The requested sketches of presets, made one by one: first those that are visible.
 class SceneSketches {
  public:
-  /// How it starts, until it is known how it moves.
+  /// The sketch of a preset: its start, until the moved one is ready.
   const SceneSketch& of(const Preset& preset);
   bool moved(const Preset& preset) const;  ///< what it gives for that preset is no longer how it starts
-  /// Called once a frame: takes what is made, and goes on; returns whether there is more to come.
+  /// To be called once per frame: takes finished sketches and continues; returns whether there are more to come.
   bool poll();
 
  private:

@@ -29,23 +29,23 @@ struct BackgroundResult {
 
 class BackgroundSteps {
  public:
-  /// Whether steps of the cloth or one of its copies are to be made here.
+  /// Whether steps of the cloth or one of its copies must be made in the background.
   static bool wanted(const Session& session);
 
   /// Whether the session shows a stand-in.
   bool busy() const { return cloth_ != nullptr; }
-  /// Begins that many steps of the cloth and its copies, or of the copies alone where it has diverged.
+  /// Begins that many steps of the cloth and its copies, or of the copies alone if the cloth has diverged.
   void start(Session& session, int steps);
-  /// Waits for them, but no longer than that, s. Whether they are there.
+  /// Waits for the steps for at most that time, s. Returns whether they are done.
   bool wait(double seconds) const { return work_.wait(seconds); }
   bool ready() const { return work_.ready(); }
-  /// Puts the cloth back, with the steps made. Waits for them. Throws EngineError if they could not be made.
+  /// Waits for the steps and puts the cloth back. Throws EngineError if the steps failed.
   BackgroundResult take(Session& session);
   void cancel() { work_.cancel(); }
 
-  /// How much of the present step is done, 0 to 1, as far as its method can tell.
+  /// Progress of the present step, 0 to 1, as its method estimates it.
   double progress() const { return cloth_ ? cloth_->engine().step_progress() : 0; }
-  /// The session's time at which they were begun, s; busy() must hold.
+  /// The session's time at which the steps began, s; busy() must hold.
   double begun() const {
     assert(busy());
     return begun_;
@@ -58,7 +58,7 @@ class BackgroundSteps {
   Job<BackgroundResult> work_;
 };
 
-/// Stops what is being computed beside the frames, so that the cloth can be changed: it stands at its last whole step.
+/// Stops background steps so that the cloth can be changed; it is then at its last complete step.
 void settle(Session& session);
 
 }  // namespace tyglab

@@ -161,7 +161,7 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
 
 void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference) {
   if (session.rebuild.busy())
-    return session.messages.note("Another cloth is being built; add a copy when it is ready.");
+    return session.messages.note("Another cloth is being built; add a copy once it is ready.");
   if (session.copies.awaited)
     return session.messages.note("Programs for another copy are being built; add this one when that is done.");
   if (awaits_programs(session, differences, as_reference))

@@ -27,7 +27,7 @@ struct Copies {
   Series energy{1 + Lockstep::most};      ///< J, of all the cloth
   double t = 0;                           ///< s, of all; the copies go on when the original has diverged
 
-  /// A copy that comes when the programs of its OpenCL device have been built, beside the frames.
+  /// A copy that is waiting for the programs of its OpenCL device, which are built in the background.
   struct Awaited {
     std::vector<Difference> differences;
     bool as_reference = false;
@@ -37,45 +37,46 @@ struct Copies {
   Job<std::monostate> programs;
 
   bool side_by_side() const { return !overlaid && !lockstep.empty(); }
-  /// How many pictures the viewport shows.
+  /// The number of pictures in the viewport.
   int tiles() const { return side_by_side() ? 1 + int(lockstep.size()) : 1; }
   void forget() { distance.clear(), energy.clear(); }
 };
 
 /// The n-th cloth: the original (n = Copies::original) or a copy.
 Simulation& cloth_of(const Session& session, int n);
-/// The seat that decides how it is drawn where a cloth before it has the same method; none: it is drawn as its method.
+/// The seat that determines its look if an earlier cloth has the same method; none: it has the look of its method.
 std::optional<std::size_t> seat_of_style(const Session& session, int n);
-/// What tells it from the original, "k_s = 80, rk4"; or of the original what the copies change.
+/// Its differences from the original, "k_s = 80, rk4"; for the original, its values of the constants that copies
+/// change.
 std::string settings_of_cloth(const Session& session, int n);
-/// How it is called: by those settings, but "accurate solution" where they are those of that choice.
+/// Its name: those differences, or "accurate solution" if they are the settings of that choice.
 std::string name_of_cloth(const Session& session, int n);
 
-/// What a copy may be made with: a row of the card's menu, and of the palette.
+/// A choice for a new copy: a row of the card's menu, and of the palette.
 struct CopyChoice {
   std::string label;
   std::vector<Difference> differences;
   std::string_view group = {};  ///< the heading over the rows of one group, which stand together; none over the first
   bool reference = false;       ///< it becomes the one from which distances are measured
 };
-/// The short groups come first, so that all headings are seen before a list is scrolled.
+/// All choices; short groups come first, so that all headings are visible before a list is scrolled.
 std::vector<CopyChoice> copy_choices(const Preset& preset);
 
-/// Adds a copy that differs in these constants, at once or when its programs are there, or says why not.
+/// Adds a copy that differs in these constants, at once or when its programs are built; a message reports an obstacle.
 void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference);
 /// Called in every frame: adds the copy whose programs have been built, if one is awaited.
 void poll_copies(Session& session);
 void remove_copy(Session& session, std::size_t n);
 /// Removes all of them; returns whether there were any.
 bool put_away_copies(Session& session);
-/// What the original has been given or become, the copies are given or become.
+/// Applies the edits and events of the original to the copies.
 void copies_apply(Session& session, const Edit& edit);
 void copies_resume(Session& session);
 /// The original has come to time `t`, s, in `computing_s` seconds of computing.
 void copies_note(Session& session, double t, double computing_s);
-/// The same, and the copies make the steps that the original has made.
+/// The same; the copies then make the steps that the original has made.
 void copies_follow(Session& session, double computing_s);
-/// The original has diverged: the copies go on by themselves, for that many of its steps. Returns them.
+/// After a divergence of the original, the copies continue for that many of its steps. Returns the number of steps.
 int copies_go_on(Session& session, int steps);
 void sample_copies(Session& session);
 

@@ -116,7 +116,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
     if (preset.texture != texture)
       copied = " and its texture " + std::filesystem::path(preset.texture).filename().string();
     Document saved{preset, file.stem().string(), file};
-    if (!session.copies.lockstep.empty()) copied += ". The copies are not saved: a preset holds one cloth.";
+    if (!session.copies.lockstep.empty()) copied += ". The copies are not saved: a preset contains one cloth.";
     std::string said = "Saved " + file.string() + copied, opened = saved.label;
     session.rebuild.rename(name, preset.description);
     if (!session.rebuild.holds_present()) apply_to_all(session, edit::Change{preset});
@@ -126,7 +126,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
     session.messages.note(std::move(said));
     return true;
   } catch (const std::bad_alloc&) {
-    session.not_saved = SaveProblem{file, name, "There is not enough memory to save it; end other programs."};
+    session.not_saved = SaveProblem{file, name, "There is not enough memory to save it; close other programs."};
   } catch (const std::exception& error) {
     session.not_saved = SaveProblem{file, name, error.what()};
   }

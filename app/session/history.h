@@ -12,12 +12,12 @@
 
 namespace tyglab {
 
-/// What is brought back when an action is undone, or done again.
+/// The state that is restored when an action is undone or redone.
 struct HistoryEntry {
   Preset constants;
   double t = 0;           ///< s, when the action was taken
   std::string what = {};  ///< "cut"; empty: the constants that differ say it
-  /// Of an action that changed the motion itself: the cloth at `t`. Null: the motion goes on as it is.
+  /// For an action that changed the motion itself: the cloth at `t`. Null: the motion continues unchanged.
   std::shared_ptr<const Snapshot> state = nullptr;
   bool too_large = false;  ///< the state should be here, but is larger than all that may be kept
 };
@@ -27,29 +27,29 @@ class History {
   static constexpr std::size_t most = 200;
   static constexpr std::size_t most_bytes = 96 << 20;  ///< of all states together
 
-  /// Whether a change of this gesture is an entry of its own: changes of one gesture (not 0) that follow each other
-  /// count as one.
+  /// Whether a change of this gesture is a separate entry: consecutive changes of one gesture (not 0) count as one.
   bool begins(unsigned gesture) const { return gesture == 0 || gesture != gesture_; }
-  /// Remembers what stands before an action.
+  /// Stores the state before an action.
   void record(HistoryEntry before, unsigned gesture);
-  /// The next change is a gesture of its own.
+  /// Makes the next change a separate gesture.
   void end_gesture() { gesture_ = 0; }
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
-  /// What an undo or a redo would bring back; null: there is none.
+  /// The state that an undo or a redo would restore; null: there is none.
   const HistoryEntry* next(bool backwards) const {
     const auto& from = backwards ? undo_ : redo_;
     return from.empty() ? nullptr : &from.back();
   }
-  /// How the action is called that an undo or a redo is about, while these are the constants; there must be one.
+  /// The name of the action that an undo or a redo affects, with these constants as the present ones; there must be
+  /// one.
   std::string what(bool backwards, const Preset& present) const;
-  /// Takes the newest entry out, and puts what stands now in its place on the other side; there must be one.
+  /// Removes the newest entry, and stores the present state in its place on the other side; there must be one.
   HistoryEntry take(bool backwards, HistoryEntry now);
   /// The motion has gone back to `t`, s: actions since then that changed it have been undone with it.
   void go_back(double t);
   /// The constants before the first action since `t`, s; null: there was none.
   const Preset* before(double t) const;
-  /// Of all that it keeps.
+  /// Size of everything that it stores.
   std::size_t bytes() const;
   void clear() { undo_.clear(), redo_.clear(), gesture_ = 0; }
 
@@ -58,7 +58,7 @@ class History {
   unsigned gesture_ = 0;
 };
 
-/// What the user has done to the constants, to be read: "k_s 50 → 100 N/m", "dt and 3 more constants".
+/// A change of constants in words: "k_s 50 → 100 N/m", "dt and 3 more constants".
 std::string change_in_words(const Preset& before, const Preset& after);
 /// The name of the one constant that differs; empty where none or several do.
 std::string only_change(const Preset& before, const Preset& after);

@@ -13,7 +13,7 @@
 
 namespace tyglab {
 
-/// A lab's file is wrong. `what()` names file, line and fix.
+/// An error in a lab file. `what()` names file, line and fix.
 class LabError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -29,7 +29,7 @@ struct Operand {
 
 enum class Relation { less, at_most, equal, unlike, at_least, greater };
 
-/// Over which part of the motion a condition is judged; the motion begins with the last restart, or with the step.
+/// The part of the motion to which a condition applies; the motion begins with the last restart, or with the step.
 enum class Span {
   now,         ///< at the moment at which the step is completed
   throughout,  ///< at every moment of the motion
@@ -39,7 +39,7 @@ enum class Span {
   narrowed     ///< of a constant: found between a value at which another condition comes true, and one at which not
 };
 
-/// What must hold: the observable `name`, related to the operand.
+/// A condition: a relation between the observable `name` and the operand.
 struct Condition {
   std::string name;
   Relation relation = Relation::equal;
@@ -51,7 +51,7 @@ struct Condition {
   bool to_find = false;         ///< the student is to find out what it asks for, which is shown once the step is done
 };
 
-/// What the student says before doing anything: a number, or one of several sentences.
+/// The student's prediction: a number, or one of several sentences.
 struct Prediction {
   std::string question;
   std::vector<std::string> choices;  ///< empty: a number is typed
@@ -62,7 +62,7 @@ struct Prediction {
   std::string unit;
 };
 
-/// A preset, and settings ("k_s=500") to be made in it.
+/// A preset, and settings ("k_s=500") for it.
 struct SceneSetup {
   std::string preset;  ///< shipped name or path
   std::vector<std::string> settings;
@@ -87,7 +87,7 @@ struct LabStep {
   Paragraphs explanation;       ///< shown afterwards
 };
 
-/// What `show` can name.
+/// The names that `show` accepts.
 inline constexpr std::array<std::string_view, 9> lab_cards{"forces",      "height", "stability", "accuracy", "energy",
                                                            "performance", "copies", "map",       "step"};
 
@@ -100,14 +100,14 @@ struct Lab {
 };
 
 /// Reads a lab's text; `source` names it in errors, and presets that are not shipped are looked for in `folder`. Throws
-/// LabError; never returns half a lab.
+/// LabError; never returns a partial lab.
 Lab parse_lab(std::string_view text, std::string_view source, const std::filesystem::path& folder = {});
 /// Reads a file. Throws LabError.
 Lab load_lab(const std::filesystem::path& file);
 
 /// The check in words: "k_s ≥ 180 N/m throughout", "Integrator: Verlet".
 std::string words_of(const Condition& condition);
-/// The same without what it asks for: "The value of k_s when the cloth diverges", "Diverged?".
+/// The same without the answer: "The value of k_s when the cloth diverges", "Diverged?".
 std::string subject_of(const Condition& condition);
 
 // The conditions of checks and answers, as a lab writes them. words_of() (lab.h) puts them into words.
@@ -123,7 +123,7 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given);
 /// "diverged = yes": a moment that has a verb of its own.
 bool asks_divergence(const Condition& condition);
 
-/// What a quantity is called on the card: "k_s", "Integrator".
+/// The name of a quantity on the card: "k_s", "Integrator".
 std::string label_of(std::string_view name);
 
 /// A word of an observable as people read it: "Verlet" for "verlet", "CPU" for "cpu".
@@ -134,7 +134,8 @@ std::string shown_word(std::string_view name, std::string_view word);
 /// Without the spaces before and behind it.
 std::string_view trimmed(std::string_view text);
 
-/// As the card sets it: in one piece, whatever its lines are in the file, without Markdown's `code` and **strong**.
+/// The text as the card shows it: in one piece, without the line breaks of the file and without Markdown's `code` and
+/// **strong**.
 std::string card_text(std::string_view text);
 
 std::vector<std::string> words_in(std::string_view text);
@@ -146,7 +147,7 @@ std::optional<double> plain_number(std::string_view text);
 class Gathered {
  public:
   void add(std::string_view line);
-  /// What has been gathered, as the card sets it; begins again.
+  /// The gathered paragraphs as the card shows them; starts anew.
   Paragraphs take();
 
  private:

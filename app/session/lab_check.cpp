@@ -58,8 +58,10 @@ std::string value_in_words(Session& session, const std::string& name) {
   if (name == "untouched") return touched_by(session);
   if (is_word(name)) return shown_word(name, observe_word(session, name));
   const auto value = observe(session, name);
-  if (const PresetRow* row = find_row(name); row != nullptr && row->zero_is_off && value == 0.0) return "off";
-  return value ? with_unit(*value, unit_of(name)) : std::string();
+  if (!value) return {};
+  const PresetRow* const row = find_row(name);
+  if (row == nullptr) return quantity(*value, unit_of(name));  // it was measured
+  return row->zero_is_off && *value == 0 ? "off" : with_unit(*value, unit_of(name));
 }
 
 void remember(Session& session, const Condition& check, bool holds, CheckMemory& memory) {
@@ -185,13 +187,13 @@ std::string broken_in_words(Session& session, const Condition& check, const Chec
            ": restart, and change only what the task names";
   if (check.span == Span::when) {
     const bool divergence = asks_divergence(check.when[0]);
-    const std::string moment = words_of(check.when[0]), again = ": restart and get there " + with_goal(session, check);
+    const std::string moment = words_of(check.when[0]), again = ": restart, and reach it " + with_goal(session, check);
     if (memory.was.empty())
       return (divergence ? "The cloth had diverged" : moment + " was true") + " before this step began" + again;
     return past_in_words(check, memory) + at + ", when " +
            (divergence ? "the cloth diverged" : moment + " became true") + again;
   }
-  if (has_sentences(check.name)) return words_of(check) + ": this was not so" + at + "; restart";
+  if (has_sentences(check.name)) return words_of(check) + ": this did not hold" + at + "; restart";
   return past_in_words(check, memory) + at + ": " + cure_in_words(session, check);
 }
 
@@ -229,9 +231,9 @@ std::string now_in_words(Session& session, const Condition& check, CheckState st
 std::string narrowed_in_words(const Condition& check, const CheckMemory& memory) {
   const auto at = [&](double value) { return "at " + with_unit(value, unit_of(check.name)); };
   if (!memory.with && !memory.without) return "neither found yet";
-  if (!memory.with) return "not " + at(*memory.without) + "; one at which it does is to be found";
-  if (!memory.without) return at(*memory.with) + "; one near it at which it does not is to be found";
-  return at(*memory.with) + ", not " + at(*memory.without) + (narrowed(check, memory) ? "" : ": come nearer");
+  if (!memory.with) return "not " + at(*memory.without) + "; find a value at which it does";
+  if (!memory.without) return at(*memory.with) + "; find a value near it at which it does not";
+  return at(*memory.with) + ", not " + at(*memory.without) + (narrowed(check, memory) ? "" : ": find closer values");
 }
 
 /// Whether a check of the step names the constant or one of its components, "W.x".

@@ -16,10 +16,10 @@ enum class CheckState {
   unknown,  ///< a quantity is not known yet
   open,     ///< it does not hold, or not yet
   holds,
-  broken  ///< of the present motion it can no longer hold: only a restart helps
+  broken  ///< it can no longer hold in the present motion: only a restart helps
 };
 
-/// What a check remembers of the motion since its beginning.
+/// The memory of a check since the beginning of the motion.
 struct CheckMemory {
   bool set = false;      ///< it broke, came true or was decided …
   bool holds = false;    ///< … and this is what came of it,
@@ -30,13 +30,13 @@ struct CheckMemory {
   std::optional<double> with = {}, without = {}, watched = {};
 };
 
-/// What is watched of the motion, to tell its beginning.
+/// The observed state of the motion, which reveals its beginning.
 struct MotionWatch {
   std::int64_t steps = 0;     ///< when it was looked at last
   std::uint64_t touches = 0;  ///< SessionCounts::touches when it began
 };
 
-/// What has become of the motion since the last look.
+/// The change of the motion since the last look.
 enum class MotionChange {
   none,
   begun,     ///< it has begun again: nothing is remembered
@@ -52,14 +52,14 @@ std::optional<double> value_of(Session& session, const Operand& operand);
 /// (`when`) and that has passed was not seen, so the check is broken.
 CheckMemory begun_late(Session& session, const Condition& check);
 
-/// Judges a check at the present moment, with what it remembers. To be called in every update.
+/// Evaluates a check at the present moment, with its memory. To be called in every update.
 CheckState judge(Session& session, const Condition& check, MotionChange change, CheckMemory& memory);
 
 /// The check as the card says it: what is asked, which number is looked at now and where it is seen, and of a broken
 /// one why it is broken and what to do.
 std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory);
 
-/// Whether the check has its constant between two values that are near enough.
+/// Whether the check has narrowed its constant down between two values that are close enough.
 bool narrowed(const Condition& check, const CheckMemory& memory);
 
 /// Whether both are bounds of one quantity that is to be found out, which the card lists as one.

@@ -33,7 +33,7 @@ std::string known_name(const std::string& name) {
 }
 
 Operand word_operand(const std::string& name, const std::vector<std::string>& words) {
-  if (words.size() != 3) throw LabError(name + " is compared with one word, such as check: integrator = euler");
+  if (words.size() != 3) throw LabError(name + " is compared with a single word, as in check: integrator = euler");
   assert(is_word(name) && find_observable(name)->words != nullptr);
   const auto known = find_observable(name)->words();
   if (std::find(known.begin(), known.end(), words[2]) == known.end())
@@ -46,7 +46,7 @@ Operand word_operand(const std::string& name, const std::vector<std::string>& wo
 
 /// From the word of that number on: "180 N/m", "0.5 * F_g", "before.error". `unit`: what may stand behind a number.
 Operand operand(const std::vector<std::string>& words, std::size_t from, std::string_view unit, bool first_step) {
-  if (from >= words.size()) throw LabError("a value is missing, such as check: k_s >= 180");
+  if (from >= words.size()) throw LabError("a value is missing, as in check: k_s >= 180");
   Operand given;
   const auto number = plain_number(words[from]);
   if (number) {
@@ -86,7 +86,7 @@ void take_span(std::vector<std::string>& words, bool first_step, Condition& give
   if (suffix[0] == "when") {
     given.span = Span::when;
     if (std::any_of(suffix.begin() + 1, suffix.end(), is_span_word))
-      throw LabError("after when stands a plain check, without throughout, once, for or another when");
+      throw LabError("a plain check follows when, without throughout, once, for or another when");
     if (suffix.size() == 1) throw LabError("when needs a check after it, such as: F_max < 0.1 N when torn > 0");
     given.when.push_back(parse_condition(joined(std::span(suffix).subspan(1), " "), first_step));
     return;
@@ -100,7 +100,7 @@ void take_span(std::vector<std::string>& words, bool first_step, Condition& give
     given.span = Span::lasting, given.seconds = *seconds;
     return;
   }
-  if (suffix.size() > 1) throw LabError(suffix[0] + " ends a check; remove what stands behind it");
+  if (suffix.size() > 1) throw LabError(suffix[0] + " ends a check; remove the text after it");
   given.span = suffix[0] == "once" ? Span::once : Span::throughout;
 }
 
@@ -129,7 +129,7 @@ void parse_narrowing(const std::vector<std::string>& words, Condition& given) {
   const bool percent = words.size() >= 8 && words[2] == "to" && words[4] == "%" && number(3) > 0 && number(3) <= 50;
   const bool whole = percent && seconds(5, "in") && (words.size() == 8 || (words.size() == 11 && seconds(8, "from")));
   if (given.span != Span::when || !whole || find_row(given.name) == nullptr)
-    throw LabError("a constant is narrowed down so: check: k_s narrowed to 5 % in 0.5 s when diverged = yes");
+    throw LabError("a constant is narrowed down as in check: k_s narrowed to 5 % in 0.5 s when diverged = yes");
   given.span = Span::narrowed, given.relation = Relation::at_most;
   given.right.factor = number(3) / 100, given.seconds = number(6), given.from = number(9);
 }
@@ -218,7 +218,7 @@ Condition parse_condition(std::string_view value, bool first_step) {
   std::vector<std::string> words = words_in(value);
   Condition given;
   take_span(words, first_step, given);
-  if (words.empty()) throw LabError("a check begins with a quantity, such as check: k_s >= 180 N/m throughout");
+  if (words.empty()) throw LabError("a check begins with a quantity, as in check: k_s >= 180 N/m throughout");
   given.name = known_name(words[0]);
   check_span(given, words);
   if (given.name == "apart" && first_step)
@@ -277,9 +277,9 @@ std::string subject_of(const Condition& condition) {
 std::string words_of(const Condition& condition) {
   if (condition.span == Span::narrowed)
     return label_of(condition.name) + " to within " + shortest_number(100 * condition.right.factor) +
-           " %: a value at which " +
+           " %: find a value at which " +
            (asks_divergence(condition.when[0]) ? "the cloth diverges" : words_of(condition.when[0])) +
-           ", and one at which not in " + shortest_number(condition.seconds) + " s";
+           ", and one at which it does not in " + shortest_number(condition.seconds) + " s";
   return (is_word(condition.name) ? words_of_word(condition) : words_of_number(condition)) + words_of_span(condition);
 }
 

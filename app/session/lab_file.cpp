@@ -215,7 +215,7 @@ void LabReader::end_opening() {
     try {
       const std::string texture = with_settings(preset, opening.settings).texture;
       if (texture != preset.texture && !is_shipped_texture(texture))
-        throw LabError("set: texture=" + texture + " is not a shipped texture, and a lab opens no other image");
+        throw LabError("set: texture=" + texture + " is not a shipped texture, and a lab opens no other images");
     } catch (const PresetError&) {
       if (!note_wrong_settings(preset, opening.settings)) throw;
     }
@@ -298,7 +298,7 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
   } else if (key == "color") {
     take_color(value);
   } else if (key == "minutes") {
-    fail("minutes: is of the whole lab; put it in a ```lab block under the title, before the first ##");
+    fail("minutes: applies to the whole lab; put it in a ```lab block under the title, before the first ##");
   } else {
     fail("within belongs on the line of the answer: answer: 0.098 m within 10 %");
   }
@@ -307,7 +307,8 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
 /// The block under the title, which says of the lab as a whole how long it takes.
 void LabReader::take_minutes(std::string_view key, std::string_view value) {
   if (key != "minutes")
-    fail(std::string(key) + ": belongs to a step; the block under the title has minutes: alone. Begin a step with a " +
+    fail(std::string(key) +
+         ": belongs to a step; the block under the title contains only minutes:. Begin a step with a " +
          "line such as ## Look first");
   const auto minutes = plain_number(value);
   if (!minutes || *minutes < 1 || *minutes > 600 || *minutes != std::floor(*minutes))

@@ -340,7 +340,7 @@ void leave_lab(Session& session) {
   std::erase_if(labs.kept, [](const KeptExperiment& kept) { return !kept.unsaved; });
   if (!labs.kept.empty())
     session.messages.note("“" + labs.kept.back().constants.name +
-                          "” is kept as it was before the lab: “Back to your experiment”, in Ctrl+P, opens it.");
+                          "” is kept in its state before the lab: “Back to your experiment”, in Ctrl+P, opens it.");
 }
 
 bool next_lab(Session& session) {

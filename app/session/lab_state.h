@@ -63,7 +63,7 @@ struct LabRun {
     assert(step < lab.steps.size());
     return lab.steps[step];
   }
-  /// The card that the present step wants in sight, or else the last step before it that wanted one.
+  /// The card that the present step shows, or else that of the last step before it that showed one.
   std::string_view shown() const;
   StepRecord& record() {
     assert(step < records.size());
@@ -73,11 +73,11 @@ struct LabRun {
     assert(step < records.size());
     return records[step];
   }
-  /// Whether the present step waits for a prediction, which comes before all that it asks.
+  /// Whether the present step waits for a prediction, which precedes its task.
   bool to_be_predicted() const { return now().prediction && !record().predicted && !record().done; }
 };
 
-/// The user's own experiment, set aside while a lab has the window: the cloth itself, which nobody moves meanwhile.
+/// The user's own experiment, set aside during a lab: the cloth itself, which does not move meanwhile.
 struct KeptExperiment {
   Document document;
   Preset constants;  ///< as they were asked for: the cloth has them, or is yet to be built with them
@@ -106,60 +106,60 @@ struct LabState {
 /// A file, or else the lab of that name: one that comes with the program or of the user's folder. Throws LabError; an
 /// unknown name is answered with the nearest.
 std::filesystem::path find_lab_file(const std::string& name_or_file);
-/// The labs that come with the program and those of the user's folder; `problems`: why files were refused.
+/// The shipped labs and those of the user's folder; `problems`: the reasons for which files were rejected.
 std::vector<Lab> read_labs(std::vector<std::string>& problems);
 
-/// The same, read at the first call; what is wrong in one is said in a message.
+/// The same, read at the first call; a message reports errors in a file.
 const std::vector<Lab>& find_labs(Session& session);
-/// How many of the lab's steps are done, as it is remembered.
+/// The stored number of completed steps of the lab.
 int steps_done(const Session& session, const Lab& lab);
 
-/// Begins a lab where it was left, at a step that opens a preset; or at `step`, counted from 0, or the last one before
-/// it at which one can begin.
+/// Starts a lab where it was left, at a step that opens a preset; or at `step`, counted from 0, or at the last step
+/// before it that opens one.
 void begin_lab(Session& session, std::string_view label, std::optional<std::size_t> step = std::nullopt);
 /// Goes to a step, and opens its preset, paused.
 void enter_step(Session& session, std::size_t step);
-/// One step back, to be read; nothing is opened.
+/// Goes one step back for reading, without opening a preset.
 void back_step(Session& session);
-/// Opens the step's preset once more, where it has one.
+/// Opens the preset of the step again, if it has one.
 void set_up_step(Session& session);
-/// Leaves it, says what came of it, and brings back the experiment that was there before; but what the user has opened
-/// in place of the lab's cloth stays.
+/// Leaves the lab, reports its result, and restores the experiment before it; a preset that the user has opened instead
+/// of the lab's cloth stays open.
 void leave_lab(Session& session);
-/// Begins the lab after the present one, and says what came of that. False where there is none after it.
+/// Starts the next lab, and reports the result of the present one. False if there is no next lab.
 bool next_lab(Session& session);
-/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", or with how many steps it was left; `done`:
-/// those that are remembered as done.
+/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", or the number of steps completed; `done`: the
+/// stored number.
 std::string lab_result(const LabRun& run, int done);
-/// Leaves the lab, and brings back the experiment that was set aside last: its cloth and copies as they stood, paused,
-/// with all that can be undone.
+/// Leaves the lab, and restores the experiment that was set aside last: its cloth and copies, paused, with the undo
+/// history.
 void back_to_experiment(Session& session);
-/// Whether the present cloth is a lab's: what is done there is no work that could be lost.
+/// Whether the present cloth belongs to a lab, whose changes are not unsaved work.
 bool no_work(const Session& session);
 
-/// Why what was typed is refused as the number that is asked for, in sentences; empty where it is not.
+/// Why a typed prediction is rejected, in sentences; empty if it is accepted.
 std::string refusal_of(const Prediction& asked, std::string_view typed);
-/// Takes what was typed or chosen as the prediction. False where there is nothing yet, or what is refused.
+/// Accepts the typed or chosen prediction. False if there is none yet, or if it is rejected.
 bool predict(Session& session);
-/// Whether that is right; asked at the moment at which the step is done.
+/// Records whether the prediction is right; to be called at the moment at which the step is done.
 void judge_prediction(Session& session, LabRun& run);
-/// Whether the machine lacks what the step needs, so that it can only be read.
+/// Whether the machine lacks a device that the step needs, so that the step can only be read.
 bool cannot_be_done(Session& session);
 
 /// Whether another preset is open than the lab's.
 bool lab_is_away(const Session& session);
-/// Whether that keeps the present step from being done: the lab then waits, and looks at nothing.
+/// Whether this prevents the present step: the lab then waits, and checks nothing.
 bool lab_waits(const Session& session);
 /// Puts the lab's cloth back: at the current step, or the last one before it that opens one.
 void resume_lab(Session& session);
 /// Whether the motion waits for the step's prediction, which would be none after a look at the result.
 bool awaits_prediction(const Session& session);
 
-/// What the checks of the current step need to be worked out.
+/// The studies that the checks of the current step need.
 Wants lab_wants(const Session& session);
-/// Called in every update: looks which checks hold, and whether the step is done.
+/// Called in every update: evaluates the checks and whether the step is done.
 void watch_lab(Session& session);
-/// Of the steps that are due, those up to where the step stops the motion; pauses it there.
+/// Limits the steps that are due to the time at which the lab's step stops the motion, and pauses the motion there.
 int up_to_stop(const Session& session, int due);
 void pause_at_stop(Session& session);
 

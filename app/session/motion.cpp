@@ -129,7 +129,7 @@ void toggle_auto_dt(Session& session) {
   const auto dt = AutoStep::choose(next);
   if (!dt) {
     session.messages.error(next.integrator +
-                           " has no stable dt with these constants. Use another method, or more k_d.");
+                           " has no stable dt with these constants. Use another method, or a larger k_d.");
     return;
   }
   next.dt = *dt;
@@ -138,7 +138,7 @@ void toggle_auto_dt(Session& session) {
   session.auto_dt.emplace();
   const bool limited = has_step_limit(scheme(next.integrator)) && !is_implicit(scheme(next.integrator));
   session.messages.note("dt " + std::string(same ? "stays at " : "is now ") + quantity(*dt, "s") +
-                        (limited ? ", 0.8 of the worst-case limit at most," : "") + " and follows the constants.");
+                        (limited ? ", at most 0.8 of the worst-case limit," : "") + " and follows the constants.");
 }
 
 void watch_dt(Session& session) {
@@ -154,7 +154,7 @@ void watch_dt(Session& session) {
   Preset next = session.preset();
   next.dt = *dt;
   apply_edit(session, edit::Change{next});
-  session.messages.note(next.integrator + " was adding energy: dt is halved to " + quantity(*dt, "s") + ".");
+  session.messages.note(next.integrator + " was adding energy: dt halved to " + quantity(*dt, "s") + ".");
 }
 
 double clock_time(const Session& session) {

@@ -18,18 +18,18 @@ struct Observable {
   std::string_view name = {};
   std::string_view unit = {};     ///< SI, empty if it has none
   std::string_view meaning = {};  ///< a sentence
-  std::string_view hint = {};     ///< what to do where it is not known, empty where it always is
-  std::string_view place = {};    ///< where the window shows it, empty where it does not
+  std::string_view hint = {};     ///< how to make it known, empty if it always is
+  std::string_view place = {};    ///< its place in the window, empty if it has none
   /// Its value, none while it is not known; null for words.
   std::optional<double> (*number)(Session&) = nullptr;
-  bool Wants::*needs = nullptr;  ///< the study that works it out, if one does; not those that somebody opens on purpose
-  /// It is worked out beside the motion, for one moment or for the constants: it is not there in every step.
+  bool Wants::*needs = nullptr;  ///< the study that computes it, if any; not those that the user opens
+  /// It is computed in the background, for one moment or for the constants, so it is not available in every step.
   bool measured = false;
   bool Wants::*shown_by = nullptr;  ///< the study that does so, where somebody has to open it on purpose
   std::string_view (*word)(const Session&) = nullptr;
   std::span<const std::string_view> (*words)() = nullptr;  ///< those it can be
   std::string_view label = {};                             ///< what it is called on the card, where not by its name
-  /// Where its words are "no" and "yes": what a check for each asks, and what is said of it at present.
+  /// For the words "no" and "yes": the sentences of a check for each, and of the present state.
   std::array<std::string_view, 2> asked = {}, present = {};
 };
 
@@ -40,9 +40,9 @@ const Observable* find_observable(std::string_view name);
 /// Whether a check may name it: a row, or a number of the notation table.
 bool is_observable(std::string_view name);
 bool is_word(std::string_view name);
-/// Whether it is worked out beside the motion, so that no check can ask what it was in every step.
+/// Whether it is computed in the background, so that no check can apply to every step.
 bool is_measured(std::string_view name);
-/// Where the window shows it: "Springs", the heading among the constants, or "Energy card"; empty where it does not.
+/// Its place in the window: "Springs", the heading among the constants, or "Energy card"; empty if it has none.
 std::string place_of(std::string_view name);
 std::string_view unit_of(std::string_view name);
 /// Every name a check may use, for "did you mean".

@@ -39,7 +39,7 @@ class Pacing {
     const double affordable = step_cost_s_ > 0 ? std::max(1.0, budget_s / step_cost_s_) : first_guess;
     return int(std::min({steps, affordable, 1e7}));
   }
-  /// Tells what became of them. What could not be made is dropped: the simulation then runs slower than requested.
+  /// Reports the steps made. Steps that could not be made are dropped: the simulation then runs slower than requested.
   void made(int steps, double dt, double wall_seconds) {
     assert(steps >= 0 && dt > 0 && !(wall_seconds < 0));
     if (steps > 0) {
@@ -54,7 +54,7 @@ class Pacing {
     requested_ = got_ = elapsed_ = 0;
   }
   void forget_cost() { step_cost_s_ = 0; }
-  /// Starts measuring again (after a pause, a change of speed).
+  /// Restarts the measurement (after a pause or a change of speed).
   void restart_measure() { requested_ = got_ = elapsed_ = owed_ = 0; }
 
   double step_cost_s() const { return step_cost_s_; }

@@ -36,7 +36,7 @@ struct Document {
   std::filesystem::path file;  ///< the user's file, empty for a shipped preset
 };
 
-/// What is to be built.
+/// The cloth to be built.
 struct BuildOrder {
   Preset target;
   bool fresh = true;  ///< at its start; otherwise with the state of the present cloth, which must not change meanwhile
@@ -63,28 +63,28 @@ class BackgroundRebuild {
   bool holds_present() const { return making_ && !making_->fresh; }
   /// Frames that were drawn while something was being built.
   std::int64_t frames_beside() const { return frames_beside_; }
-  /// The constants that have been asked for, while they are being built; otherwise null, and where a preset is opened.
+  /// The requested constants while their cloth is being built; null otherwise, and when a preset is opened.
   const Preset* requested_preset() const { return wish() != nullptr && !opens() ? &wish()->target : nullptr; }
-  /// The lattice of the cloth that will be shown next; none where it is the present one.
+  /// The lattice of the next cloth; none if it is the present one.
   std::optional<Lattice> lattice() const {
     return wish() != nullptr ? std::optional(lattice_of(wish()->target)) : std::nullopt;
   }
-  /// Whether programs alone are built for it.
+  /// Whether only programs are built for it.
   bool programs() const { return wish() != nullptr && wish()->programs; }
-  /// Whether what has been asked for is a restart, or a preset that is opened.
+  /// Whether the request is a restart, or a preset to be opened.
   bool restarts() const { return wish() != nullptr && wish()->restarts; }
   bool opens() const { return wish() != nullptr && wish()->document.has_value(); }
 
-  /// Builds that; what is running is not wanted any more. `before`: the history to return to if it cannot be built.
+  /// Builds that cloth and discards a running build. `before`: the history to restore if the build fails.
   void order(const Session& session, BuildOrder order, History before);
-  /// What has been asked for is not wanted any more.
+  /// Discards the request.
   void drop() { next_.reset(), dropped_ = busy(); }
   /// Keeps an edit for the cloth being built.
   void defer(Edit edit) {
     assert(holds_present());
     deferred_.push_back(std::move(edit));
   }
-  /// The cloth being built gets another name.
+  /// Renames the cloth being built.
   void rename(const std::string& name, const std::string& description);
   /// Called in every frame: takes the cloth that is ready, if one is.
   void poll(Session& session);
@@ -113,9 +113,9 @@ class BackgroundRebuild {
 
 /// Of the preset's cloth.
 double particles(const Preset& preset);
-/// Whether an OpenCL device must build programs before the present cloth has these constants.
+/// Whether an OpenCL device must build programs before the present cloth can have these constants.
 bool needs_programs(const Session& session, const Preset& preset);
-/// Whether the cloth of a preset takes so long to build that it is built beside the frames.
+/// Whether the cloth of a preset is built in the background because it takes long.
 bool takes_long(const Session& session, const Preset& preset);
 /// Takes a simulation in place of the present one.
 void swap_in(Session& session, std::shared_ptr<Simulation> simulation);

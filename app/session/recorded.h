@@ -31,7 +31,7 @@ class Series {
   }
   /// One value a column. Samples that do not come after the last one start a new series.
   void add(double t, std::span<const double> values);
-  /// Steps pass of which there are no samples: a curve has a gap before the next one.
+  /// Marks steps without samples: a curve has a gap before the next sample.
   void interrupt() { interrupted_ = !t_.empty(); }
   /// Samples before which there is a gap, ascending.
   std::span<const std::size_t> gaps() const { return gaps_; }
@@ -51,7 +51,7 @@ class Series {
   bool interrupted_ = false;
 };
 
-/// What the force plot follows.
+/// The source of the force plot.
 enum class Source { particle, sum, maximum };
 
 struct Recorded {
@@ -86,11 +86,11 @@ std::vector<SeriesColumn> height_columns();
 std::vector<SeriesColumn> energy_column_list();
 
 struct Session;
-/// What the force plot follows: of a weight the weight, whatever was chosen for cloths.
+/// The source of the force plot; for a mass on a spring it is the mass, whatever was chosen for cloths.
 Source force_source(const Session& session);
 /// Before the first steps of a plot: a series begins with the present state, at t = 0 after a restart.
 void sample_start(Session& session);
-/// Takes the samples that are wanted of the steps just made.
+/// Takes the requested samples of the steps just made.
 void sample(Session& session);
 /// How many steps apart samples are taken within a frame, so that what is plotted does not depend on how often pictures
 /// are drawn; more than there are in a frame where a sample costs much, as on a device or of a sum over the cloth.

@@ -21,8 +21,7 @@ void follow_constants(Session& session, Preset& next) {
   const auto dt = AutoStep::choose(next);
   if (next.dt != session.requested_preset().dt || !dt) {
     session.auto_dt.reset();
-    session.messages.note(dt ? "dt is set by hand again."
-                             : next.integrator + " has no stable dt: dt is set by hand again.");
+    session.messages.note(dt ? "dt is manual again." : next.integrator + " has no stable dt: dt is manual again.");
     return;
   }
   session.auto_dt->begin();

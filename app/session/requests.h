@@ -21,14 +21,13 @@ struct Apply {
   unsigned gesture = 0;
   bool confirmed = false;  ///< the user has agreed to a very large cloth
 };
-/// A second back, and on from there with these constants.
+/// Goes back one second and continues with these constants.
 struct Retry {
   Preset preset;
 };
-/// The last steps before the divergence once more, slowly.
+/// Replays the last steps before the divergence slowly.
 struct Replay {};
-/// Takes a preset from a file, with these settings ("k_s=500") made in it. Asks first where changes would be lost,
-/// unless confirmed.
+/// Opens a preset from a file, with these settings ("k_s=500"). Asks first if changes would be lost, unless confirmed.
 struct Open {
   std::filesystem::path file;
   bool shipped = false;
@@ -58,7 +57,7 @@ struct Quit {
 using Request = std::variant<request::Apply, request::Retry, request::Replay, request::Open, request::SavePreset,
                              request::LoadTexture, request::AddCopy, request::RemoveCopy, request::Quit>;
 
-/// A question that the user must answer before the session goes on with a request.
+/// A question that the user must answer before the session continues with a request.
 struct Question {
   enum class About { unsaved_changes, large_cloth };
   About about;
@@ -67,15 +66,15 @@ struct Question {
 };
 
 struct Session;
-/// Applies all requests since the last update, in order. Errors become messages and leave everything as it was.
+/// Applies all requests since the last update, in order. Errors become messages and change nothing.
 void apply_requests(Session& session);
 /// Whether the present constants differ from those of the file (the view apart); never those of a lab's cloth.
 bool unsaved(const Session& session);
 /// Whether the motion has diverged, and constants of its model have been changed since.
 bool changed_since_divergence(const Session& session);
-/// Effects of changes that leave the model of the motion as it is.
+/// Effects of changes that do not affect the model of the motion.
 inline constexpr EffectSet beside_model = motionless | Effect::engine | Effect::device | Effect::precision;
-/// Whether both say the same of the motion: they may differ in name, picture, engine and precision.
+/// Whether both describe the same motion: they may differ in name, picture, engine and precision.
 bool same_model(const Preset& a, const Preset& b);
 
 }  // namespace tyglab

@@ -75,7 +75,7 @@ bool take_constants_back(Session& session) {
   Preset then = session.simulation->diverged_preset(), now = session.requested_preset();
   then.mode = now.mode, then.engine = now.engine, then.device = now.device, then.precision = now.precision;
   if (!apply_edit(session, edit::Change{then})) return false;
-  session.messages.note("Constants set back to those that diverged: " + change_in_words(now, then) +
+  session.messages.note("Restored the constants that diverged: " + change_in_words(now, then) +
                         ". Ctrl+Z undoes that.");
   return true;
 }
@@ -127,7 +127,7 @@ void watch_replay(Session& session) {
   if (passed && !left && !diverged) {
     session.pacing.playing = false;
     session.messages.note(
-        "This time it did not diverge: going back starts the method again from positions and velocities.");
+        "The motion did not diverge this time: a replay restarts the method from positions and velocities.");
   }
   session.pacing.restart_measure();
   session.replay.reset();

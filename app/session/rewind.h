@@ -27,13 +27,13 @@ class Rewind {
   void look(Simulation& simulation);
   /// The newest snapshot that is at least so long (s) before `t` and fits, or the oldest that fits; nullptr: none does.
   const Snapshot* before(const Simulation& simulation, double t, double seconds) const;
-  /// The same, but not from before the cloth or its constants were changed last: from there the same motion follows.
+  /// The same, but only since the last change of the cloth or its constants, so that the same motion follows.
   const Snapshot* unchanged_before(const Simulation& simulation, double t, double seconds) const;
-  /// Goes back to one of them: what came after it is forgotten.
+  /// Goes back to a snapshot, and discards later ones.
   void go_back(Simulation& simulation, const Snapshot& then);
-  /// The cloth or its constants have been changed, and the motion is another from here on.
+  /// Records a change of the cloth or its constants, which changes the motion from here on.
   void note_change() { changing_ = true; }
-  /// What came after that time (s) is forgotten.
+  /// Discards everything after that time (s).
   void forget_after(double t);
   void clear() { kept_.clear(), bytes_ = 0, changed_.reset(); }
   std::size_t bytes() const { return bytes_ + (changed_ ? changed_->bytes() : 0); }
@@ -60,7 +60,7 @@ struct Replay {
   double former_speed = 0;  ///< to go on with afterwards
 };
 
-/// Why there is nothing to replay, a sentence; empty: there is.
+/// Why there is nothing to replay, a sentence; empty if there is.
 std::string nothing_to_replay(const Session& session);
 /// Goes back to shortly before the divergence, and on from there slowly. What was asked for meanwhile stays.
 void begin_replay(Session& session);

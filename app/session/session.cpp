@@ -64,8 +64,8 @@ void Session::update(double real_seconds, const SessionInput& input) {
   } catch (const std::bad_alloc&) {
     pacing.playing = false;
     messages.error(
-        "There is not enough memory to go on, so the motion is paused; the cloth is as it was. Use fewer rows and "
-        "columns, or end other programs.");
+        "There is not enough memory to continue, so the motion is paused; the cloth is unchanged. Use fewer rows and "
+        "columns, or close other programs.");
   }
   steps_made = recorded.sampled = 0;
 }

@@ -30,7 +30,7 @@
 
 namespace tyglab {
 
-/// What acts on the cloth during an update, beside the requests.
+/// The actions on the cloth during an update, besides the requests.
 struct SessionInput {
   std::optional<glm::dvec3> hand;     ///< where the hand that holds the cloth is to be at the end, m
   std::function<void()> after_steps;  ///< called after each step where set: a knife acts while the cloth moves under it
@@ -40,7 +40,7 @@ struct SessionInput {
   double frame_time = 1.0 / 60;  ///< s, of the display; drawing that takes longer leaves as much time for steps
 };
 
-/// Counts of events that whoever draws the session or acts on it must follow.
+/// Counts of events that drawing and tools must follow.
 struct SessionCounts {
   std::uint64_t documents = 0;  ///< a preset was opened
   std::uint64_t cloths = 0;     ///< pictures are out of date, though revisions may be the same
@@ -114,9 +114,9 @@ struct Session {
     return rebuild.requested_preset() != nullptr ? *rebuild.requested_preset() : preset();
   }
   void request(Request request) { requests.push_back(std::move(request)); }
-  /// Takes the steps that were made beside the frames, with what follows from them; waits for them. Throws EngineError.
+  /// Waits for background steps and takes them over, with their consequences. Throws EngineError.
   void take_steps();
-  /// Asks for the constants to become these.
+  /// Requests these constants.
   void propose(Preset next, unsigned gesture = 0) { request(request::Apply{edit::Change{std::move(next)}, gesture}); }
 
  private:
@@ -138,7 +138,7 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture = 0);
 /// Gives an edit to the cloth and its copies, with no more checks or traces than they make themselves. Throws as
 /// Simulation::apply.
 void apply_to_all(Session& session, const Edit& edit);
-/// What stands now, to be brought back when an action is undone that changes the motion itself.
+/// The present state, to be restored when an action that changes the motion itself is undone.
 HistoryEntry motion_entry(Session& session, std::string what);
 /// Applies a change of constants to the cloth and its copies, with its consequences.
 void change_and_follow(Session& session, const edit::Change& change);
@@ -148,8 +148,8 @@ void follow_up(Session& session, const Preset& before, EffectSet effects);
 
 // Replaces the engine if its device is lost during the run.
 
-/// The device is gone, for that reason: the CPU engine goes on from the last state that is kept, or from the start
-/// where none is, and a message says so. Throws EngineError where the CPU engine itself is at fault.
+/// Replaces a lost device, for that reason: the CPU engine continues from the last stored state, or from the start if
+/// there is none, and a message reports this. Throws EngineError if the CPU engine itself fails.
 void fall_back(Session& session, const std::string& why);
 
 }  // namespace tyglab

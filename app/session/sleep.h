@@ -18,7 +18,7 @@
 
 namespace tyglab {
 
-/// What counts as rest, of a cloth of side ℓ that swings in τ = √(ℓ/|g|) (1 s without gravity).
+/// The definition of rest for a cloth of side ℓ that swings in τ = √(ℓ/|g|) (1 s without gravity).
 struct RestTolerance {
   double radius;  ///< m; every particle stays that near to where it was …
   double window;  ///< s; … for that long, 2 τ, …
@@ -38,7 +38,7 @@ class Sleep {
   /// After a frame's steps. `touched`: a tool acts on the cloth.
   void look(Simulation& simulation, bool touched);
 
-  /// Of the places that it remembers.
+  /// Size of the stored places.
   std::size_t bytes() const { return anchor_.capacity() * sizeof(glm::dvec3); }
 
  private:

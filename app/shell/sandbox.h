@@ -54,7 +54,7 @@ class Gui {
   void begin_frame(InputQueue& input);
   /// Ends the frame and draws it.
   void draw();
-  /// The font atlas was filled again.
+  /// To be called after the font atlas was filled again.
   void fonts_changed();
 
  private:
@@ -72,7 +72,7 @@ class SettingsWriter {
   /// To be called often; `now` is in s. Begins to write what `present` returns where that has changed. Returns
   /// whether there is a message, once, that it cannot be written.
   bool update(double now, const std::function<Settings()>& present, Messages& messages);
-  /// Writes the last ones. Throws OutputError.
+  /// Writes the last settings. Throws OutputError.
   void finish(const Settings& last);
 
  private:

@@ -1,4 +1,5 @@
-// The start of a window: settings, options, the first cloth and its picture; and what the window saves for the next.
+// The start of a window: settings, options, the first cloth and its picture; and the state that the window saves for
+// the next start.
 #pragma once
 
 #include <memory>
@@ -16,10 +17,10 @@ namespace tyglab {
 
 /// The settings of earlier sessions; what is wrong with them becomes a message.
 Settings settings_for(const SandboxOptions& options, Messages& messages);
-/// Puts what the options and settings say into session, scene and panels.
+/// Applies options and settings to session, scene and panels.
 void take_options(const SandboxOptions& options, Ui& ui);
 
-/// Puts into the settings what the next session begins with.
+/// Stores the state for the next session in the settings.
 void remember_session(Ui& ui);
 
 /// The picture that a preset's cloth shows, or a sentence about what is wrong with it.

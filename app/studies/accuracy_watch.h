@@ -13,7 +13,7 @@
 
 namespace tyglab {
 
-/// What is known so far of the motion from one moment on.
+/// The results so far for the motion from one moment on.
 struct AccuracyStudy {
   Preset of;      ///< the constants
   MotionMark at;  ///< the moment
@@ -41,11 +41,11 @@ class AccuracyWatch {
   /// Called in every frame in which it is wanted: begins a study where constants have changed, where the cloth stands
   /// at another moment than that of the last, and every few seconds while it moves.
   void poll(StudyMoment& moment);
-  /// Nobody wants it any more: what is running is stopped and forgotten.
+  /// Stops and discards the study once nothing requests it.
   void drop();
-  /// A copy of what is known; none while nothing is.
+  /// A copy of the results; none while there are none.
   std::optional<AccuracyStudy> study() const;
-  /// What is being measured, before it has anything to show; none where nothing is.
+  /// The study that is being measured before it has results; none if there is none.
   std::optional<AccuracyStudy> measuring() const;
   double begun() const { return begun_; }  ///< s on the session's clock, of what is being measured
 

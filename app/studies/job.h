@@ -33,10 +33,10 @@ namespace tyglab {
 /// normal work is done at once, since somebody waits for it, and the other is refused, since it takes long.
 enum class Priority { normal, below_frames };
 
-/// What the work sees of its job. Safe to use from both threads.
+/// The job as the work sees it. Safe to use from both threads.
 class JobControl {
  public:
-  /// Whether the result is no longer wanted. The work looks often, and ends soon.
+  /// Whether the result is no longer needed. The work checks often, and ends soon.
   bool cancelled() const { return cancelled_; }
   void cancel() { cancelled_ = true; }
   /// In a copy of the program: sends findings to the program itself. Empty in a thread, which shares its memory.
@@ -46,7 +46,7 @@ class JobControl {
   std::atomic<bool> cancelled_ = false;
 };
 
-/// Why there is no result.
+/// The reason for a missing result.
 struct JobError {
   std::string what;
   bool out_of_memory = false;
@@ -120,7 +120,7 @@ class Job {
     std::unique_lock lock(state_->mutex);
     return state_->end.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return bool(state_->ended); });
   }
-  /// Whether the worker is still at it.
+  /// Whether the worker is still running.
   bool working() const { return state_ && !state_->ended; }
   void cancel() {
     if (!state_) return;
@@ -208,15 +208,15 @@ class Job {
   std::unique_ptr<State> state_;
 };
 
-/// A job that fills in findings as it goes, for whoever shows them meanwhile.
+/// A job with intermediate findings, which can be shown while it runs.
 template <class Findings>
 class Study {
  public:
-  /// What the frames and the work share.
+  /// The data that frames and work share.
   class Shared {
    public:
     explicit Shared(Findings first) : findings_(first), seen_(std::move(first)) {}
-    /// Changes what is known; for the work alone.
+    /// Changes the findings; only for the work.
     template <class Change>
     void update(const Change& change) {
       const std::lock_guard lock(mutex_);
@@ -262,9 +262,9 @@ class Study {
     };
     job_.start(Priority::below_frames, do_it, take);
   }
-  /// Asks the work to stop; what it has found stays.
+  /// Asks the work to stop; its findings are kept.
   void cancel() { job_.cancel(); }
-  /// Whether the worker is still at it, wanted or not.
+  /// Whether the worker is still running, needed or not.
   bool working() const { return job_.working(); }
   /// Forgets what it found, and asks the work to stop. That is not waited for, since work below the frames may get no
   /// processor for seconds where others need them all; until it ends, working() holds.
@@ -275,7 +275,7 @@ class Study {
   }
   /// What the newest work shares; null before the first.
   const std::shared_ptr<Shared>& shared() const { return shared_; }
-  /// A copy of what is known; none before the first.
+  /// A copy of the findings; none before the first.
   std::optional<Findings> findings() const { return shared_ ? std::optional(shared_->findings()) : std::nullopt; }
 
  private:

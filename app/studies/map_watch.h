@@ -10,7 +10,7 @@
 
 namespace tyglab {
 
-/// What is known of a map.
+/// The results of a map.
 struct MapFindings {
   Preset of;  ///< the constants; its stiffness and dt are those with which it began
   MapGrid grid;
@@ -33,9 +33,9 @@ class MapWatch {
   /// Called in every frame in which the map is wanted: begins one where there is none, or where constants other than
   /// stiffness and dt have changed or these have left it.
   void poll(StudyMoment& moment);
-  /// Nobody wants it any more: what is running is stopped and forgotten.
+  /// Stops and discards the map once nothing requests it.
   void drop();
-  /// A copy of what is known; none while nothing is.
+  /// A copy of the results; none while there are none.
   std::optional<MapFindings> findings() const;
   bool working() const { return work_.working(); }
 

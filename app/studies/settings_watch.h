@@ -19,20 +19,20 @@ class SettingsWatch {
   void ask(double tolerance, const Preset& preset);
   /// Called in every frame in which it is wanted.
   void poll(StudyMoment& moment);
-  /// The search is stopped; what it has found stays.
+  /// Stops the search; its findings are kept.
   void stop();
-  /// Whether one is wanted that has not ended.
+  /// Whether an unfinished search is requested.
   bool searching() const;
   /// Whether the newest was stopped before its end.
   bool stopped() const { return stopped_; }
-  /// What is running is stopped, and everything is forgotten.
+  /// Stops the search and discards everything.
   void drop();
 
-  /// The error asked for, m; none before it was.
+  /// The requested error, m; none before the first request.
   std::optional<double> tolerance() const { return tolerance_; }
-  /// A copy of what is known; none while nothing is.
+  /// A copy of the results; none while there are none.
   std::optional<SettingsSearch> search() const { return work_.findings(); }
-  /// Whether what is known is about these constants, whatever the method, its dt and the precision.
+  /// Whether the results belong to these constants, apart from the method, its dt and the precision.
   static bool is_about(const SettingsSearch& search, const Preset& preset);
 
  private:

@@ -23,13 +23,13 @@ class ConvergenceWatch {
  public:
   static constexpr double window = 0.25;  ///< s of motion, where it does not take too long
 
-  /// Measures from the present moment on; what was running is dropped.
+  /// Measures from the present moment on, and drops a running measurement.
   void begin(StudyMoment& moment);
   /// Called in every frame in which it is wanted: begins where nothing is known, and again once constants have changed.
   void poll(StudyMoment& moment);
-  /// What is running is stopped and forgotten.
+  /// Stops and discards the measurement.
   void drop();
-  /// A copy of what is known; none while nothing is.
+  /// A copy of the results; none while there are none.
   std::optional<Convergence> study() const;
 
  private:
@@ -44,7 +44,7 @@ class DeviceSearch {
   /// Begins, the first time that it is called.
   void begin();
   bool busy() const { return work_.busy(); }
-  /// What there is; null until that is known.
+  /// The result; null until it is known.
   const OpenClInventory* found();
 
  private:
@@ -90,7 +90,7 @@ struct Studies {
   EngineSearch engine;
   DeviceSearch devices;
 
-  /// Goes on with what is wanted, and drops the rest.
+  /// Continues the requested studies, and drops the others.
   void update(const Wants& wants, StudyMoment& moment);
 };
 

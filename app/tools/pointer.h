@@ -16,7 +16,7 @@ namespace tyglab {
 struct Tools;
 class Simulation;
 
-/// What the pointer is doing in the viewport.
+/// The action of the pointer in the viewport.
 struct Tool {
   enum class Kind { none, orbit, pan, right, grab, cut, body, wind };
   Kind kind = Kind::none;     ///< right: the right button is down and has not moved yet
@@ -25,7 +25,7 @@ struct Tool {
   glm::vec2 press{0}, at{0};  ///< pixels in that picture
   double press_time = 0;
   std::vector<glm::vec2> path;  ///< the pointer's path in this frame, for cuts
-  /// A knife's way through a picture, as it is still seen.
+  /// The visible stroke of a knife through a picture.
   struct StrokePoint {
     glm::vec2 at{0};  ///< pixels in that picture
     double time = 0;  ///< s
@@ -33,7 +33,7 @@ struct Tool {
     bool begins = false;
   };
   std::vector<StrokePoint> stroke;
-  /// Where the pointer rests over a picture, and the particle that was found there.
+  /// The resting place of the pointer over a picture, and the particle there.
   struct Rest {
     glm::vec2 at{-1};
     int tile = 0;
@@ -66,7 +66,7 @@ bool body_under_pointer(Tools& tools);
 bool wind_under_pointer(const Tools& tools);
 /// The mouse's button, GLFW_MOUSE_BUTTON_…, that a finger put there stands for.
 int finger_button(Tools& tools, glm::vec2 at);
-/// How near to the pointer a particle is taken, pixels.
+/// Reach of the pointer for particles, pixels.
 float pointer_reach(const Tools& tools);
 /// Whether the pointer grabs or cuts now.
 bool hand_in_cloth(const Tools& tools);

@@ -30,9 +30,9 @@ struct Tools {
 
   /// Lengths on the screen, given at scale 1, in pixels.
   float px(float at_1) const { return at_1 * scene.scale; }
-  /// Lets go of what is no longer there.
+  /// Releases a particle or body that no longer exists.
   void follow();
-  /// What the tools do to the cloth in an update of the session.
+  /// The actions of the tools on the cloth in an update of the session.
   SessionInput session_input();
 
  private:
@@ -47,7 +47,7 @@ struct Tools {
 
 struct Tools;
 
-/// Cuts what the pointer has passed since the last call.
+/// Cuts everything that the pointer has passed since the last call.
 void use_knife(Tools& tools);
 /// Whether it cuts at the pointer once a step, since the cloth moves under it between two frames. A cut along the path
 /// is over with the frame whose path it is.

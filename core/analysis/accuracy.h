@@ -29,7 +29,7 @@ struct AccuracyRow {
   std::int64_t unconverged = 0;          ///< implicit solves that did not reach their tolerance
 };
 
-/// How much time a method may take in a scene.
+/// The time that a method may take in a scene.
 struct AccuracyEffort {
   double longest_s = 0.4;  ///< of one run
   bool fine = true;        ///< two dt for each halving; otherwise one
@@ -40,7 +40,7 @@ struct AccuracyEffort {
 /// The least dt that presets allow, s.
 inline constexpr double least_dt = 1e-7;
 
-/// Whether the reference can tell an error of that size.
+/// Whether the reference resolves an error of that size.
 bool can_tell(const Reference& reference, double error_rms_m);
 /// The status of a finished run: an error under ten times what the references differ by is not resolved.
 AccuracyStatus judged(const Reference& reference, double error_rms_m);
@@ -60,27 +60,27 @@ std::vector<AccuracyRow> measure_integrator(const AccuracyScene& scene, const Re
 
 /// The names of Boost.Odeint's rows: "odeint_runge_kutta4", …
 std::vector<std::string> odeint_methods();
-/// Whether they can compute a scene at all: they know no bodies.
+/// Whether they can compute a scene at all: they do not support bodies.
 bool odeint_can(const AccuracyScene& scene);
 /// All rows of one of them, driven by EngineForces.
 std::vector<AccuracyRow> measure_odeint(const AccuracyScene& scene, const Reference& reference,
                                         const std::string& method, Precision precision, const AccuracyEffort& effort,
                                         const Stop& stop);
 
-/// Who reaches an error first.
+/// The fastest method for an error.
 struct AccuracyWinner {
   std::string scene;
   double error_rms_m = 0;  ///< a power of ten
   std::string integrator;  ///< the best of this project
   Precision precision = Precision::double_;
   double seconds = 0;          ///< between two rows, interpolated
-  bool at_largest_dt = false;  ///< it is that exact with the largest dt at which it stays stable
+  bool at_largest_dt = false;  ///< it reaches this error with its largest stable dt
   std::string odeint;          ///< the best of Boost.Odeint's; empty: none reaches it
   Precision odeint_precision = Precision::double_;
   double odeint_seconds = 0;
 };
 
-/// When a method reaches an error.
+/// The run time at which a method reaches an error.
 struct Reached {
   double seconds;
   bool at_largest_dt;
@@ -91,7 +91,7 @@ std::optional<Reached> reached(std::span<const AccuracyRow> rows, double error_r
 /// A line for each decade of error from 1e-2 to 1e-6 m that this project reaches on the CPU engine and the reference
 /// can tell, from all rows of one scene, those of a method one after the other.
 std::vector<AccuracyWinner> accuracy_winners(std::span<const AccuracyRow> rows, const Reference& reference);
-/// Takes rows apart by method, precision and engine.
+/// Groups rows by method, precision and engine.
 std::vector<std::span<const AccuracyRow>> by_method(std::span<const AccuracyRow> rows);
 
 }  // namespace tyglab

@@ -23,7 +23,7 @@ double damping_for(const Preset& sheet, double zeta);
 /// Whether the method is unstable on that sheet. The preset's precision must be double.
 bool unstable(const Preset& sheet);
 
-/// What was bisected, grew, or fell apart.
+/// One measured limit or growth.
 struct BoundaryRow {
   Preset preset;         ///< with the measured dt or k_s
   double predicted = 0;  ///< s, N/m or 1/step

@@ -117,7 +117,7 @@ std::string convergence_words(const Convergence& study) {
   if (order->by_differences) words += " from differences between runs, since no reference is accurate enough";
   words += printed("; %s has %d for smooth motion. ", method.c_str(), nominal);
   if (order->order < nominal - as_promised) words += why_lower(study) + " ";
-  if (order->order > nominal + as_promised) words += "The largest dt are too large for a clean slope. ";
+  if (order->order > nominal + as_promised) words += "The largest values of dt are too large for a clean slope. ";
   const auto hidden =
       std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.resolved; });
   if (!order->by_differences && hidden != study.points.end())

@@ -20,7 +20,7 @@ struct ConvergencePoint {
   bool resolved = true;          ///< false: the error is under ten times what the references differ by
 };
 
-/// What is known of a scene's convergence so far.
+/// The convergence of a scene, as far as it has been measured.
 struct Convergence {
   Preset of;                 ///< the constants
   double t = 0;              ///< s, where the motion that is compared begins
@@ -43,18 +43,18 @@ struct MeasuredOrder {
 /// Whether errors against the reference show: at least two of them are resolved, or nothing has diverged but all is
 /// still to come. Otherwise runs are compared with each other.
 bool by_reference(const Convergence& study);
-/// What a point is off by, so or so, m; none where that is not known, or not resolved.
+/// The error of a point by either measure, m; none if it is unknown or not resolved.
 std::optional<double> shown_error(const Convergence& study, const ConvergencePoint& point);
 /// The order of the method for that scene's damping, as its table says of smooth motion.
 int nominal_order(const Preset& preset);
 /// Through the finest resolved points, four at most, by least squares of logarithms. None while there are fewer
 /// than two points.
 std::optional<MeasuredOrder> measured_order(const Convergence& study);
-/// What came out and what spoils it, in sentences: of a study that is done.
+/// The result of a finished study, and what reduces the order, in sentences.
 std::string convergence_words(const Convergence& study);
 
-/// Measures all, in double, so that rounding does not hide the order; tells `found` what it knows after every run.
-/// `seconds`: of motion, at most. Throws Stopped. What else can go wrong becomes the study's problem.
+/// Measures all points, in double, so that rounding does not hide the order; calls `found` with the results after every
+/// run. `seconds`: of motion, at most. Throws Stopped. Other errors become the study's problem.
 void measure_convergence(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop,
                          const std::function<void(const Convergence&)>& found);
 

@@ -131,9 +131,9 @@ EngineChoice choose_among(std::vector<EngineTime> times, bool measured) {
     choice.why = best->name + ", since no other engine runs this scene";
     if (times.size() > 1 && !times[1].fault.empty()) choice.why += ": " + times[1].fault;
   } else {
-    choice.why = best->name + ": " + ns_text(best->ns) + " per particle and step in this scene, against " +
+    choice.why = best->name + ": " + ns_text(best->ns) + " per particle and step in this scene, compared with " +
                  ns_text(other->ns) + " with " + other->name +
-                 (measured ? ", measured just now" : ", measured on an earlier run");
+                 (measured ? ", measured just now" : ", measured in an earlier run");
   }
   choice.times = std::move(times);
   return choice;

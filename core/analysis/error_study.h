@@ -36,13 +36,13 @@ struct ErrorPoint {
   bool given_up = false;   ///< it took longer than it may
 };
 
-/// How the distances at several times make one error.
+/// The way in which distances at several times become one error.
 enum class ErrorOver {
   all_times,  ///< their root mean square
   worst_time  ///< the largest of them
 };
 
-/// Over which time a motion can be checked, and what it is checked by.
+/// The reference of a motion, and the time that it covers.
 struct StudyReference {
   double seconds = 0;          ///< of motion that is compared
   Track track;                 ///< positions at accuracy_samples equal times in it
@@ -64,8 +64,8 @@ struct StudyEffort {
   double cost = 1e9;       ///< processor seconds for a simulated second that a setting available may take
 };
 
-/// Told how far the runs of a reference are: the time that they cover, s, and the part of their steps that is made, 0
-/// to 1.
+/// Called with the progress of the runs of a reference: the time that they cover, s, and the fraction of their steps
+/// that is done, 0 to 1.
 using ReferenceProgress = std::function<void(double seconds, double part)>;
 
 /// The reference from that start over at most `seconds`: less where a cloth is so large, or so stiff, that it would
@@ -77,11 +77,11 @@ StudyReference study_reference(const StudyStart& start, double seconds, const St
 /// Throws as study_reference does.
 StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop,
                               const ReferenceProgress& progress = {});
-/// Particles times force evaluations that it takes.
+/// The cost of such a reference: particles times force evaluations.
 double reference_effort(const Preset& preset, double seconds, double finer);
-/// Follows the motion once more, by a method of another kind, and raises the reference's disagreement to how far that
-/// run is from it: in contact and where springs tear, runs of one method can agree and be wrong together. Takes about
-/// as long as the reference did. Throws as study_reference does.
+/// Repeats the motion with another kind of method, and raises the reference's disagreement to how far that run is from
+/// it: in contact and where springs tear, runs of one method can agree and be wrong together. Takes about as long as
+/// the reference did. Throws as study_reference does.
 void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop,
                              const ReferenceProgress& progress = {});
 

@@ -12,7 +12,7 @@
 
 namespace tyglab {
 
-/// How well a mode must be known: |A u - λ u| over the largest λ. λ itself is then better by about as much again.
+/// The accuracy required of a mode: |A u - λ u| over the largest λ. λ itself is then better by about as much again.
 inline constexpr double live_tolerance = 2e-2;
 inline constexpr double exact_tolerance = 1e-5;
 

@@ -54,8 +54,8 @@ Window window_of(const StudyStart& start, double seconds, const Stop& stop) {
   const double fits = seconds * most_effort / effort(finer);
   if (last_event_effort(preset, seconds) <= most_effort && time_of_last_event(start, seconds, stop) < fits)
     return {fits, finer};
-  throw std::runtime_error("this cloth is too large, or too stiff, to follow the " + two_digits(seconds) +
-                           " s that have to be seen finely enough. Use fewer rows and columns, or --dt auto");
+  throw std::runtime_error("this cloth is too large or too stiff for a fine run over the " + two_digits(seconds) +
+                           " s that it must cover. Use fewer rows and columns, or --dt auto");
 }
 
 StudyReference find_reference(const StudyStart& start, SettingsSearch& search, const Stop& stop, const Found& found) {

@@ -13,12 +13,12 @@
 
 namespace tyglab {
 
-/// What is given and therefore not to be chosen.
+/// The settings that are given and therefore not chosen.
 struct SettingsKeeps {
   bool integrator = false, precision = false;
 };
 
-/// What a search is to find.
+/// The goal of a search.
 struct SettingsGoal {
   double tolerance = 1e-4;  ///< m
   double seconds = 1;       ///< of motion
@@ -26,7 +26,7 @@ struct SettingsGoal {
   bool present = false;  ///< measure the present settings too
 };
 
-/// What is known so far. Errors are root mean squares over the particles at the time of comparison at which they are
+/// The results so far. Errors are root mean squares over the particles at the time of comparison at which they are
 /// largest.
 struct SettingsSearch {
   Preset of;     ///< the constants
@@ -43,15 +43,15 @@ struct SettingsSearch {
   bool done = false;
   std::string problem;  ///< a sentence: why nothing can be found
 
-  /// How much of the search is done, 0 to 1: fine runs and methods count as half of it each.
+  /// Progress of the search, 0 to 1: fine runs and methods count as half each.
   double part_done() const;
   /// How many times the distance between references a tolerance must be: twice as many where errors do not fall evenly.
   double margin() const { return rough ? 2 * reference_margin : reference_margin; }
 };
 
 /// Measures settings until the goal is reached by each method that can; tells `found` what it knows after every step of
-/// the search. What goes wrong becomes the search's problem. It takes some seconds of processor time: at most about
-/// ten for the references of a large cloth, and about ten for the settings. Throws Stopped.
+/// the search. Errors become the search's problem. It takes some seconds of processor time: at most about ten for the
+/// references of a large cloth, and about ten for the settings. Throws Stopped.
 SettingsSearch search_settings(const StudyStart& start, const SettingsGoal& goal, const Stop& stop,
                                const std::function<void(const SettingsSearch&)>& found);
 
@@ -76,7 +76,7 @@ Preset with_setting(const Preset& preset, const ErrorPoint& point);
 
 // `--engine auto` chooses the engine that steps a scene fastest on this machine, from short runs.
 
-/// What an engine takes for a scene.
+/// The time of an engine for a scene.
 struct EngineTime {
   EngineKind engine = EngineKind::cpu;
   int device = -1;    ///< number of an OpenCL device

@@ -26,14 +26,14 @@ struct MapGrid {
 /// preset's values inside.
 MapGrid map_grid(const Preset& preset, int columns, int rows);
 
-/// What a short run in a cell came to.
+/// The result of a short run in a cell.
 struct MapCell {
   int column = 0, row = 0;
   double stiffness = 0, dt = 0;
   double dt_theory = 0;  ///< s; the worst-case limit at this stiffness; 0 where there is none
   bool diverged = false;
   double t = 0;      ///< s; when it diverged, or how long it ran
-  double share = 0;  ///< energy that the method made (above 0) or ate, in parts of what the scene can hold
+  double share = 0;  ///< energy that the method added (above 0) or removed, relative to the scene's most
 };
 
 /// The constant on the map's x axis: "k_s", or "k" of a mass on a spring; its value; and the preset with both set.

@@ -24,9 +24,9 @@ double whole_dt(double seconds, double dt, int& steps);
 
 // Runs independent measurements on several threads and reports the results in order.
 
-/// Does work(n) for every n in [0, count), on `threads` threads at a time, until stop() holds; calls finished(n) once n
-/// and all before it are done, for one n after the other. What was begun is finished. Rethrows what work or finished
-/// threw first.
+/// Calls work(n) for every n in [0, count), on `threads` threads at a time, until stop() holds; calls finished(n) once
+/// n and all before it are done, for one n after the other. Work that has begun is finished. Rethrows the first
+/// exception of work or finished.
 void in_parallel(int count, int threads, const std::function<void(int)>& work, const std::function<void(int)>& finished,
                  const std::function<bool()>& stop);
 
@@ -51,7 +51,7 @@ struct TimeMean {
 };
 TimeMean mean_of_blocks(std::span<const double> block_means);
 
-/// How a method moves a scene in the long run.
+/// Statistics of a method on a scene in the long run.
 struct MotionStatistics {
   std::string scene, integrator;
   double dt = 0;            ///< s

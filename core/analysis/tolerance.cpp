@@ -22,7 +22,7 @@ std::string settings_of(const ErrorPoint& point) {
 /// Why there is nothing for the tolerance. Its figures are rounded away from it, so that they never contradict it.
 std::string why_refused(const SettingsSearch& search, double tolerance) {
   if (search.margin() * search.agreement_rms_m > tolerance)
-    return shortest_number(tolerance) + " m cannot be promised over the first " + number(search.seconds) +
+    return shortest_number(tolerance) + " m cannot be guaranteed over the first " + number(search.seconds) +
            " s: fine runs (" + search.references + ") differ by " + number(two_digits_above(search.agreement_rms_m)) +
            " m, and a tolerance must be at least " + number(search.margin()) + " times that";
   const ErrorPoint* best = nullptr;
@@ -30,9 +30,9 @@ std::string why_refused(const SettingsSearch& search, double tolerance) {
   return "no method reaches " + shortest_number(tolerance) + " m here with a margin of two" +
          (best != nullptr ? "; the best was " + settings_of(*best) + " with " + number(two_digits_above(least)) + " m"
                           : "") +
-         (search.goal.keeps.integrator ? "; leave the method open for more" : "") +
+         (search.goal.keeps.integrator ? "; more are possible without a fixed method" : "") +
          (search.goal.keeps.precision && search.of.precision == Precision::float_
-              ? "; leave the precision open for more"
+              ? "; more are possible in double precision"
               : "");
 }
 
@@ -42,7 +42,7 @@ std::string ToleranceChoice::words(double tolerance) const {
   ErrorPoint used = chosen;
   if (used.tolerance == 0) used.dt = preset.dt;
   const std::string within =
-      used.tolerance > 0 ? " (in steps of its own within dt = " + number(preset.dt) + " s)" : std::string();
+      used.tolerance > 0 ? " (with inner steps within dt = " + number(preset.dt) + " s)" : std::string();
   std::string text =
       settings_of(used) + within + ": error " + (chosen.resolved ? "" : "below ") +
       number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, reference_margin * agreement_rms_m)) +
@@ -62,8 +62,8 @@ std::vector<ErrorPoint> reached_or_refused(const SettingsSearch& search, double 
   const double tightest = tightest_tolerance(search);
   const bool told = tightest <= largest;
   throw ToleranceError(why_refused(search, tolerance) +
-                           (told ? ". The tightest tolerance that can be promised is " + number(tightest) + " m"
-                                 : ". No tolerance up to 1 m can be promised here"),
+                           (told ? ". The tightest tolerance that can be guaranteed is " + number(tightest) + " m"
+                                 : ". No tolerance up to 1 m can be guaranteed here"),
                        told ? std::optional(tightest) : std::nullopt);
 }
 

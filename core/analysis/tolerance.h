@@ -16,7 +16,7 @@ struct ToleranceChoice {
   std::vector<ErrorPoint> reached;  ///< the cheapest setting of each method that reaches the error, cheapest first
   double seconds = 0;               ///< of motion that was tried, from the start
   double agreement_rms_m = 0;       ///< how far references differ over it
-  /// What was chosen and why, as sentences.
+  /// The choice and its reason, as sentences.
   std::string words(double tolerance) const;
 };
 
@@ -25,16 +25,16 @@ class ToleranceError : public std::runtime_error {
  public:
   ToleranceError(const std::string& what, std::optional<double> tightest_there_is)
       : std::runtime_error(what), tightest(tightest_there_is) {}
-  std::optional<double> tightest;  ///< m; the tightest tolerance that can be promised here, where there is one
+  std::optional<double> tightest;  ///< m; the tightest tolerance that can be guaranteed here, if there is one
 };
 
-/// What a search found for the tolerance, the cheapest first. Throws ToleranceError.
+/// The settings that a search found for the tolerance, the cheapest first. Throws ToleranceError.
 std::vector<ErrorPoint> reached_or_refused(const SettingsSearch& search, double tolerance);
 
 /// Settings with positions off by at most the goal's tolerance (m, root mean square over the particles) at every time
 /// of comparison in the goal's seconds of motion; of less only where the cloth is so large that all of it would take
-/// too long, and nothing new happens after the end. `found` is told how far the search has come. Throws ToleranceError
-/// or Stopped.
+/// too long, and nothing new happens after the end. `found` is called with the progress of the search. Throws
+/// ToleranceError or Stopped.
 ToleranceChoice choose_for_tolerance(const Preset& preset, const SettingsGoal& goal, const Stop& stop,
                                      const std::function<void(const SettingsSearch&)>& found);
 

@@ -10,7 +10,7 @@
 namespace tyglab {
 
 /// One of the six half directions in which a particle owns springs. Every spring is owned by its upper end (or its left
-/// end within a row), so each stands once in (direction, owner).
+/// end within a row), so each has one pair (direction, owner).
 struct Direction {
   int di, dj;    ///< from owner to the other end
   double rest;   ///< rest length in units of L

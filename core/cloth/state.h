@@ -47,8 +47,8 @@ struct StateRow {
   double* x[3];
   double* v[3];
 };
-/// Writes row i. So a large state can be handed over without standing in memory as a whole; called for different rows
-/// at the same time.
+/// Writes row i, so a large state can be passed on without being in memory as a whole. May be called for different rows
+/// simultaneously.
 using StateRows = std::function<void(int i, const StateRow& row)>;
 /// The rows of a state; it must outlive them.
 StateRows rows_of(const State& state, int columns);

@@ -9,7 +9,7 @@
 
 namespace tyglab {
 
-/// A dt rounded down to two digits, which are easy to say and to remember.
+/// A dt rounded down to two digits, which are easy to read and remember.
 double two_digits_below(double dt);
 
 /// Chooses dt by linear theory, for any configuration of the springs: what is active now may change in the next step,
@@ -24,12 +24,12 @@ class AutoStep {
   /// The dt for this preset, s; none if the method has no stable one.
   static std::optional<double> choose(const Preset& preset);
 
-  /// Starts again, after something else than this watch has changed dt or the constants.
+  /// Starts again, after something other than this watch has changed dt or the constants.
   void begin() { *this = AutoStep(); }
-  /// Checks the ledger; returns the dt to go on with if the present one adds too much energy.
+  /// Checks the ledger; returns a smaller dt if the present one adds too much energy.
   std::optional<double> look(const Preset& preset, double t, const LedgerReading& ledger);
 
-  /// Whether energy was added as fast after several halvings as before: it is not dt that is to blame, and stays now.
+  /// Whether energy was added as fast after several halvings as before: then dt is not the cause, and it stays.
   bool in_vain() const { return in_vain_ >= most_in_vain; }
 
  private:

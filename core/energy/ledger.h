@@ -50,7 +50,7 @@ struct LedgerReading {
   double start = 0;  ///< total then
   WorkTotals works;
   /// The scale of unexplained(): the energy that the cloth had in motion and springs, what gravity can give it over its
-  /// own length, and what wind, hand and edits have added.
+  /// own length, and the work of wind, hand and edits.
   double scale = 0;
   /// What the integrator added (> 0) or removed.
   double unexplained() const { return energy.total() - start - works.total(); }
@@ -63,8 +63,8 @@ struct LedgerReading {
 
 class Ledger {
  public:
-  /// Added energy, relative to the scale, above which a warning is due. Whether a run has diverged is not the ledger's
-  /// to say: what is watched does not change what happens (motion_limit.h).
+  /// Added energy, relative to the scale, above which a warning is due. The ledger does not determine whether a run has
+  /// diverged: observation does not change the run (motion_limit.h).
   static constexpr double warns_at = 0.1;
 
   enum class Source { hand, tearing, edits };

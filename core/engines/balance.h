@@ -18,9 +18,9 @@ namespace tyglab {
 template <class R>
 constexpr double balance_tolerance = sizeof(R) == 8 ? 1e-6 : 1e-4;
 
-/// What no solution can do better, m: what the last digits of the positions of a cloth, whose largest coordinate is
-/// `size`, m, make of forces. `stiffness`: k h²/m of its stiffest springs. As everywhere here, forces are multiplied by
-/// h²/m.
+/// The smallest residual that a stored solution can have, m: the effect of the last digits of the positions on forces,
+/// for a cloth whose largest coordinate is `size`, m. `stiffness`: k h²/m of its stiffest springs. As everywhere here,
+/// forces are multiplied by h²/m.
 inline double last_digits(double epsilon, double size, double stiffness) {
   assert(epsilon > 0 && !(size < 0) && !(stiffness < 0));
   return 4 * epsilon * size * (1 + stiffness);
@@ -36,7 +36,7 @@ inline double weight_scale(double g, double h) {
 struct Balance {
   bool solved = false;
   double residual = 0;   ///< the largest, in parts of the largest force; may be non-finite
-  bool rounded = false;  ///< not solved, but no state in this precision would be
+  bool rounded = false;  ///< not solved, but no state in this precision could be
   /// Whether there is nothing more to find.
   bool found() const { return solved || rounded; }
 };

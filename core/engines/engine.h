@@ -102,8 +102,8 @@ struct StepFeature {
   bool on;
 };
 
-/// What an engine holds of a motion between two steps, as it holds it: nothing is lost to rounding, or to what a method
-/// derives from velocities when it starts.
+/// The state of a motion between two steps, as the engine stores it: exact, without rounding and without the start of a
+/// method.
 class HeldMotion {
  public:
   HeldMotion() = default;
@@ -139,12 +139,11 @@ class Engine {
   virtual bool ready_for_contacts() const { return true; }
   /// Fixes these particles from now on, after synchronize() if others are to be fixed.
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
-  /// Takes the memory that set_fixed() with as many particles, synchronize() and load() need, so that these do not run
-  /// out of it where they are parts of a larger change.
+  /// Allocates the memory that set_fixed() with as many particles, synchronize() and load() need, so that they cannot
+  /// fail as parts of a larger change.
   virtual void prepare([[maybe_unused]] std::size_t fixed) {}
-  /// Makes up to `steps` steps; stops early on divergence, when the hand lets go, when stop_when() says so, and where
-  /// memory fails after some of them: it is thrown that it does where not even one is made. Updates `tears` as springs
-  /// break.
+  /// Makes up to `steps` steps; stops early on divergence, when the hand releases, when stop_when() requests it, and
+  /// when memory runs out after some steps (std::bad_alloc if not even one was made). Updates `tears` as springs break.
   virtual AdvanceResult advance(int steps, Tears& tears) = 0;
   /// Whether steps record what bodies stop, which only the energy ledger needs.
   virtual void note_contacts(bool on) = 0;
@@ -156,11 +155,11 @@ class Engine {
   virtual void read_raw(State& state, const Tears& tears) = 0;
   /// The present motion, for go_on_from(); null: this engine can only be given positions and velocities.
   virtual std::shared_ptr<const HeldMotion> held_motion() const { return nullptr; }
-  /// After load() with the state of the same moment and the same constants: from here the same steps follow that
-  /// followed then, to the last bit. Does nothing where another kind of engine held the motion.
+  /// Continues a stored motion after load() with its state and constants: the following steps equal the original ones
+  /// to the last bit. Does nothing if another kind of engine stored the motion.
   virtual void go_on_from([[maybe_unused]] const HeldMotion& then) {}
   virtual PositionView positions() const = 0;
-  /// How its positions reach OpenGL without a copy; null if its arrays are not on a device.
+  /// The interface that brings its positions to OpenGL without a copy; null if its arrays are not on a device.
   virtual VertexSharing* vertex_sharing() { return nullptr; }
   const VertexSharing* vertex_sharing() const { return const_cast<Engine*>(this)->vertex_sharing(); }
   /// One particle as the method stores it. Reads nothing but the particles' own arrays, so another thread may read at
@@ -168,38 +167,38 @@ class Engine {
   virtual StoredParticle stored(int i, int j) const = 0;
   /// Position of one particle: as positions(), but from a device only its surroundings are read.
   virtual glm::dvec3 position(int i, int j) const { return positions().at(i, j); }
-  /// Size of all arrays that grow with the cloth, bytes.
+  /// Size of all arrays that grow with the cloth, in bytes.
   virtual std::size_t bytes() const = 0;
-  /// Most threads that it uses.
+  /// Maximum number of threads that it uses.
   virtual int threads() const = 0;
-  /// Threads that it uses at present: it lets go of those that do not pay.
+  /// Number of threads that it uses at present; threads that do not pay are released.
   virtual int threads_at_work() const { return threads(); }
   virtual SolveCounts solves() const = 0;
-  /// What Σ |v|² + 2 E/m over all particles and springs can be at most, by what has given energy to the motion
-  /// (MotionLimit), m²/s²; infinity where that is not known.
+  /// Upper bound of Σ |v|² + 2 E/m over all particles and springs, from everything that has given energy to the motion
+  /// (MotionLimit), m²/s²; infinity if it is unknown.
   virtual double given_squared() const { return std::numeric_limits<double>::infinity(); }
   /// Work of a method that chooses its own steps within dt; all zero for others.
   virtual InnerSteps inner_steps() const = 0;
-  /// What a step does for the present scene, and what it skips.
+  /// The parts of a step that the present scene needs, and those that are skipped.
   virtual std::vector<StepFeature> features() const = 0;
   /// For display, such as "CPU, AVX2, 2 threads".
   virtual std::string name() const = 0;
 
-  /// From now on advance() ends as soon as this says so: between two steps, and within a step where a step can take
-  /// long, that is where the method solves, iterates or chooses its own steps. What such a step has done is undone.
+  /// From now on advance() ends as soon as this function returns true: between two steps, and also within a step if the
+  /// method solves, iterates or chooses its own steps. An unfinished step is undone.
   virtual void stop_when(Stop stop) { stop_ = std::move(stop); }
-  /// From now on a method that can end early (scheme.h) ends a step with what it has found once that step has taken so
-  /// long, s: 0 lets it go on to the solution. Such a step counts as SolveCounts::ended_early, depends on the machine,
-  /// and is made once only: repeated it would not give the same bits. What a step does before and after it solves, and
-  /// a first iteration or pass, takes its time all the same: SolveCounts::longest_limited says how long. The CPU engine
-  /// alone can do that; others go on to the solution.
+  /// Limits the real time of a step, s, for methods that can end early (scheme.h); 0: no limit. At the limit a step
+  /// keeps its current result. Such a step counts as SolveCounts::ended_early, depends on the machine, and is made only
+  /// once, since repeating it would not give identical bits. The work before and after the solve, and the first
+  /// iteration or pass, always complete: SolveCounts::longest_limited is the longest time. Only the CPU engine supports
+  /// this; others always solve completely.
   void limit_steps(double seconds) {
     assert(seconds >= 0);
     step_limit_ = seconds;
   }
   double step_limit() const { return step_limit_; }
-  /// The part of the present step that is done, 0 to 1, as far as the method can tell: 0 for a method whose steps are
-  /// all alike. Any thread may ask.
+  /// Progress of the present step, 0 to 1, as the method estimates it; 0 for a method whose steps all cost the same.
+  /// Any thread may call this.
   virtual double step_progress() const { return step_progress_; }
 
  protected:
@@ -209,13 +208,13 @@ class Engine {
     assert(!(part < 0) && !(part > 1 + 1e-9));
     step_progress_ = part;
   }
-  /// A step begins, whose time is limited.
+  /// Begins a step with a time limit.
   void begin_limit() { step_begun_ = std::chrono::steady_clock::now(); }
   /// Real time since then, s.
   double step_seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - step_begun_).count();
   }
-  /// Whether this part of its time is over.
+  /// Whether this fraction of its time has passed.
   bool out_of_time(double part) const {
     assert(part >= 0 && part <= 1 + 1e-9);
     return step_limit_ > 0 && step_seconds() >= part * step_limit_;

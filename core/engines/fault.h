@@ -19,7 +19,7 @@ struct Fault {
   const char* quantity;
   double value;
   int di = 0, dj = 0;
-  double excess = 0;  ///< energy of the motion over all that the scene can hold; 0: not what is wrong
+  double excess = 0;  ///< energy of the motion divided by the most that the scene can contain; 0: not the fault
 };
 
 /// A spring that is longer than that many rest lengths has diverged; a mass on a spring, that is farther from x_0 than
@@ -64,13 +64,13 @@ template <class R>
 bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
                 Fault& fault, double& divergence_budget);
 
-/// Measures the present motion. `to_velocity`: what stored velocities are to be multiplied by, to be in m/s.
+/// Measures the present motion. `to_velocity`: factor that converts stored velocities to m/s.
 template <class R>
 Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
                  double to_velocity);
 
-/// Whether particles are faster all together than the scene can make them, or one is farther away than it can have
-/// come. Of several that are about as fast it names the first, so that rounding does not decide.
+/// Whether all particles together are faster than the scene allows, or one is farther away than it can have traveled.
+/// Of several about equally fast particles it names the first, so rounding does not decide.
 template <class R>
 bool find_runaway(const MotionLimit& limit, const Lattice& lattice, const StateView<R>& state, double to_velocity,
                   Fault& fault);

@@ -16,7 +16,7 @@
 
 namespace tyglab {
 
-/// What an examination of all particles says of their motion.
+/// The motion of all particles, as measured.
 struct Motion {
   double squared = 0;   ///< Σ |v|² + 2 E/m over all particles and springs, m²/s²
   double farthest = 0;  ///< largest coordinate, m
@@ -38,7 +38,8 @@ class MotionLimit {
   /// A step over dt, s, is made.
   void pass(double dt);
 
-  /// What Σ |v|² + 2 E/m can be at most by what has given it, and by rounding, m²/s²: no exact motion has more.
+  /// Upper bound of Σ |v|² + 2 E/m, from everything that has supplied energy and from rounding, m²/s²; no exact motion
+  /// exceeds it.
   double given_squared() const { return given_squared_; }
   /// Σ |v|² above which the run has diverged, m²/s².
   double most_squared() const { return most_squared_; }

@@ -29,7 +29,7 @@ struct FieldInfo {
 /// In the order of the enumerators.
 std::span<const FieldInfo> particle_fields();
 const FieldInfo& info(ParticleField field);
-/// The field of that name; none where none is called so.
+/// The field of that name; none if there is none.
 std::optional<ParticleField> field_called(std::string_view name);
 
 /// Works out a field at each of the sites, row after row, with the formulas of the read-out: the largest F_s of the

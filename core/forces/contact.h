@@ -21,10 +21,10 @@ double depth(const Body& body, const glm::dvec3& x);
 /// state's precision.
 double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
 
-/// The speed towards the body, m/s, below which a particle rests on it rather than bounces. The step that finds a
-/// contact errs in the speed of the bounce, by g dt (Verlet) to 3 g dt (Euler), so that with a restitution e bounces of
-/// up to 3 g dt/(1 - e) regain what they lose and would never end. 0 above e = 0.9, where this would end bounces that
-/// are real.
+/// The speed toward the body, m/s, below which a particle rests on it rather than bounces. The step that finds a
+/// contact errs in the speed of the bounce, by g dt (Verlet) to 3 g dt (Euler), so with a restitution e, bounces of up
+/// to 3 g dt/(1 - e) regain the energy that they lose and would never end. 0 above e = 0.9, where it would end real
+/// bounces.
 double rest_speed(const Body& body, double g, double dt);
 
 /// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt. Then the
@@ -32,7 +32,7 @@ double rest_speed(const Body& body, double g, double dt);
 bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
                      const glm::dvec3& a);
 
-/// What contacts depend on beside the bodies.
+/// Parameters of contacts besides the bodies.
 struct ContactRule {
   double dt;       ///< s
   double g;        ///< m/s²

@@ -49,9 +49,9 @@ Scheme damped_verlet() {
           R"(particles were heavier, which never makes the step less stable. $n$ is chosen so that the residual is )"
           R"(at most $10^{-6}$ in float and $10^{-12}$ in double (16 and 32 products at $\kappa = 5$), but is at )"
           R"(most 500; steps that lack more than $10^{-6}$ of $s$ ($10^{-4}$ in float) are reported as unconverged. )"
-          R"(The mean of $a$ over each piece that nothing holds has the eigenvalue 1; where 500 do not suffice, it )"
-          R"(is taken from the right-hand side before the iteration and added to its result, so no common motion is )"
-          R"(slowed.)",
+          R"(The mean of $a$ over each piece that nothing holds has the eigenvalue 1; where 500 products are not )"
+          R"(enough, this mean is removed from the right-hand side before the iteration and added to its result, so )"
+          R"(no common motion is slowed.)",
       .sweeps = {{.position = x, .velocity = v, .velocity_dt_power = 0, .assignments = {{slope, {{a, 1, 0}}}}},
                  {.position = x,
                   .velocity = slope,

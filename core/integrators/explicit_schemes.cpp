@@ -20,7 +20,7 @@ std::vector<Scheme> explicit_schemes() {
        .formula =
            R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines use only the state at the beginning of the )"
            R"(step, so every oscillation grows by a factor of $\sqrt{1 + (\omega\,dt)^2}$ per step. This is the )"
-           R"(report's example of what not to do, and worth seeing.)",
+           R"(report's example of a method to avoid, and it is worth watching.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
        .lag = 0},

@@ -19,7 +19,8 @@ std::vector<Scheme> implicit_schemes() {
        .title = "Implicit Euler",
        .equation = "",
        .source =
-           "D. Baraff, A. Witkin, SIGGRAPH 1998; here with Newton's method to the end, J. Nocedal, S. J. Wright, "
+           "D. Baraff, A. Witkin, SIGGRAPH 1998; here with Newton's method until it converges, "
+           "J. Nocedal, S. J. Wright, "
            "Numerical Optimization, 2nd ed. (2006), 7.1; stiff steps by an interior-point method, S. Mehrotra, SIAM "
            "J. Optim. 2, 575 (1992), with multigrid, U. Trottenberg, C. W. Oosterlee, A. Schüller, Multigrid (2001); "
            "compare T. Liu, S. Bouaziz, L. Kavan, ACM Trans. Graph. 36, 23 (2017)",
@@ -29,9 +30,8 @@ std::vector<Scheme> implicit_schemes() {
        .keeps_displacement = false,
        .note = "Stable at every dt and k_s. It removes energy, the more the larger dt is.",
        .stability = "stable at every dt (L-stable); removes energy from all oscillations",
-       .cost =
-           "one solve: a few steps of Newton's method, each a few dozen products with the stiffness; in stiff cloths "
-           "10 to 30 steps of an interior-point method",
+       .cost = "one solve: a few steps of Newton's method, each with a few dozen products with the stiffness "
+               "matrix; in stiff cloths 10 to 30 steps of an interior-point method",
        .formula =
            R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$. The step uses the forces at its end. An oscillation )"
            R"(shrinks by a factor of $1/\sqrt{1 + (\omega\,dt)^2}$ per step. If $k_s dt^2/m \ge 10$, springs switch )"

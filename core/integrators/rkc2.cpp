@@ -136,7 +136,7 @@ Scheme rkc2() {
       .stability =
           "chooses steps and stages that are stable, hλ down to −0.65 s² with s stages; oscillations need "
           "h < 2.5 k_d/k_s, or grow slowly without damping",
-      .cost = "2 to 100 evaluations of the force per inner step, as many as damping asks for",
+      .cost = "2 to 100 evaluations of the force per inner step, as many as the damping requires",
       .formula =
           R"(The stages of this explicit method follow Chebyshev's recurrence, so that s stages are stable for real )"
           R"($h\lambda$ down to $-\tfrac23(s^2 - 1)(1 - \tfrac2{15}\varepsilon)$ with $\varepsilon = \tfrac2{13}$: )"

@@ -38,8 +38,8 @@ struct Assignment {
 };
 
 /// Evaluate a(vectors[position], vectors[velocity] · dt^velocity_dt_power), then assign. Where `solves` is not 0, make
-/// the assignments of `before`, take these two vectors c_x and c_v to the solution of
-/// x = c_x + solves·dt·v, v = c_v + solves·dt·a(x, v), then assign (what is assigned then does not name a).
+/// the assignments of `before`, replace these two vectors c_x and c_v by the solution of x = c_x + solves·dt·v, v = c_v
+/// + solves·dt·a(x, v), then assign (these assignments do not use a).
 struct Sweep {
   int position;
   int velocity;
@@ -50,15 +50,15 @@ struct Sweep {
   bool external = false;  ///< a holds gravity and wind alone
   bool projects = false;  ///< instead of evaluating a, projects vectors[position] + vectors[velocity] on the springs'
                           ///< lengths, softened by their compliance; the assignments are followed by a pass of damping
-  double damps = 0;       ///< not 0: instead of evaluating a, takes r in vectors[velocity] to the solution s of
+  double damps = 0;       ///< not 0: instead of evaluating a, replaces r in vectors[velocity] by the solution s of
                           ///< (1 + damps·dt·C) s = r, where -C v is what damping adds to a
 };
 
-/// What a method that chooses its own steps knows of the step it has just tried, as sums of state vectors.
+/// The measures of a tried step for methods that choose their own steps, as sums of state vectors.
 struct Estimate {
   int order;                                    ///< power of dt with which the error of a step falls
   std::vector<Term> x, v;                       ///< error of the step, m and m/s
-  std::vector<Term> stage_x, stage_v, stage_a;  ///< by how much the last two stages differ, both at the step's end
+  std::vector<Term> stage_x, stage_v, stage_a;  ///< difference of the last two stages, both at the end of the step
   std::vector<double> growth;                   ///< coefficients of R(z): a step takes y of y' = λ y to R(λ dt) y
 };
 
@@ -72,15 +72,15 @@ struct StageTable {
 
 /// How the equations of an implicit stage are solved.
 enum class Solver {
-  newton,       ///< to the end: by Newton's method or an interior-point method
+  newton,       ///< to convergence: by Newton's method or an interior-point method
   alternation,  ///< by `iterations` alternations of a local and a global step: projective dynamics
   blocks,       ///< by `iterations` passes in which each particle solves for itself: vertex block descent
 };
 
-/// Vector 0 changes in the last sweep alone, or in the only one: bodies act on the way from the old to the new
-/// position. Where there is an `estimate`, dt is covered with as many steps as the tolerance asks, the first assignment
-/// of every sweep keeps its a, the last sweep's a is the next step's first, and all other assignments of the last sweep
-/// wait until the step is accepted.
+/// A method. Vector 0 changes only in the last sweep, since bodies act between the old and the new position. With an
+/// `estimate`, as many inner steps cover dt as the tolerance requires, the first assignment of every sweep keeps its a,
+/// the last sweep's a is the next step's first, and all other assignments of the last sweep wait until the step is
+/// accepted.
 struct Scheme {
   std::string_view name;      ///< in presets and on the command line
   std::string_view title;     ///< for people
@@ -90,24 +90,23 @@ struct Scheme {
   int order_damped;            ///< k_d > 0
   int vectors;                 ///< state vectors that it keeps
   bool keeps_displacement;     ///< vector 1 is d = dt·v, not v
-  std::string_view note;       ///< a sentence said where it is offered
-  std::string_view stability;  ///< what is known of it, a clause
+  std::string_view note;       ///< a sentence for lists of methods
+  std::string_view stability;  ///< its stability, a clause
   std::string_view cost;       ///< of a step, a clause
   std::string_view formula;    ///< a paragraph for docs/integrators.md, with TeX
   std::vector<Sweep> sweeps;
-  /// What the vectors become at the start, in order, from x in vector 0, v in vector 1 and a(x, v); none: these are
-  /// kept.
+  /// Assignments at the start, in order, from x in vector 0, v in vector 1 and a(x, v); none: these vectors are kept.
   std::vector<Assignment> start;
   double lag;  ///< vector 1 lacks the end of the last kick: lag·dt·a(x, v) more is the velocity at the position
   std::optional<Estimate> estimate = {};  ///< it chooses its own steps
-  /// And the number of their stages: a table for each, from the fewest to the most; `sweeps` are those of the first.
-  /// All use the same vectors, and their first sweeps and their last ones make as many assignments.
+  /// It also chooses the number of stages: one table for each, from the fewest to the most; `sweeps` belong to the
+  /// first. All use the same vectors, and their first sweeps and their last ones make as many assignments.
   std::vector<StageTable> tables = {};
   Solver solver = Solver::newton;  ///< of the sweeps that solve
 };
 
 std::span<const Scheme> schemes();
-/// The vector that damping sees where a step begins: v itself or a prediction of it.
+/// The velocity that damping uses at the beginning of a step: v itself or a prediction of it.
 inline int seen_velocity(const Scheme& scheme) {
   const Sweep& first = scheme.sweeps.front();
   return first.solves != 0 ? vector_v : first.velocity;
@@ -118,12 +117,12 @@ inline bool is_implicit(const Scheme& scheme) {
     if (sweep.solves != 0) return true;
   return false;
 }
-/// Whether a step of a cloth may end before its equations are solved: where what solves them is the step's end, as it
-/// is of implicit Euler. Methods that extrapolate from there enlarge what is left.
+/// Whether a step of a cloth may end before its equations are solved: only if their solution is the end of the step, as
+/// with implicit Euler. Methods that extrapolate from the solution amplify its residual.
 inline bool can_end_early(const Scheme& scheme) {
   return is_implicit(scheme) && scheme.sweeps.size() == 1 && scheme.order_undamped == 1;
 }
-/// Whether it covers dt with as many steps as the tolerance asks.
+/// Whether it covers dt with as many inner steps as the tolerance requires.
 inline bool chooses_steps(const Scheme& scheme) {
   return scheme.estimate.has_value();
 }
@@ -131,11 +130,11 @@ inline bool chooses_steps(const Scheme& scheme) {
 inline bool is_stabilized(const Scheme& scheme) {
   return !scheme.tables.empty();
 }
-/// Whether it projects positions on the springs' lengths: then no amplification matrix says what a step does.
+/// Whether it projects positions onto the lengths of springs; such a method has no amplification matrix.
 inline bool projects(const Scheme& scheme) {
   return scheme.sweeps.back().projects;
 }
-/// Whether damping alone is taken implicitly: a linear system with a matrix that no motion changes.
+/// Whether only the damping is implicit: a linear system whose matrix does not depend on the motion.
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;
 }
@@ -143,15 +142,15 @@ inline bool solves_damping(const Scheme& scheme) {
 inline bool solves_equations(const Scheme& scheme) {
   return is_implicit(scheme) || solves_damping(scheme);
 }
-/// Whether `iterations` bounds what a step does.
+/// Whether `iterations` bounds the work of a step.
 inline bool iterates(const Scheme& scheme) {
   return is_implicit(scheme) || projects(scheme);
 }
-/// Whether a step makes as many passes over its equations as `iterations` says, whatever they leave.
+/// Whether a step makes exactly `iterations` passes over its equations, whatever the residual.
 inline bool counts_passes(const Scheme& scheme) {
   return scheme.solver != Solver::newton;
 }
-/// Whether linear theory can say from which dt on the method is unstable (infinity where it is at none).
+/// Whether linear theory has a limit of dt for the method (infinity if it is stable at every dt).
 inline bool has_step_limit(const Scheme& scheme) {
   return !chooses_steps(scheme) && !projects(scheme) && !counts_passes(scheme);
 }
@@ -171,10 +170,10 @@ struct SolveCounts {
   std::int64_t linear = 0;  ///< iterations of conjugate gradients within them, or products with a constant matrix
   std::int64_t force_evaluations = 0;
   std::int64_t unconverged = 0;  ///< steps whose forces do not balance, in any of their stages
-  std::int64_t rounded = 0;      ///< those of them in which only more digits of the positions could help
-  std::int64_t ended_early = 0;  ///< steps that ended because their time was up (Engine::limit_steps)
+  std::int64_t rounded = 0;      ///< unconverged steps that need more digits of the positions
+  std::int64_t ended_early = 0;  ///< steps that reached their time limit (Engine::limit_steps)
   double longest_limited = 0;    ///< real time of the longest step that had a limit (Engine::limit_steps), s
-  double worst_residual = 0;     ///< of all steps, in parts of the largest force; may be infinite
+  double worst_residual = 0;     ///< largest of all steps, relative to the largest force; may be infinite
 };
 
 }  // namespace tyglab

@@ -18,13 +18,13 @@ struct Spectrum {
   double fastest = 0;  ///< ω of the fastest mode, which no complex eigenvalue exceeds in size
 };
 
-/// The step that goes farthest for each stage, s, of those that are stable with such eigenvalues: the stages reach over
-/// the real ones, and the complex ones lie within the disc of stability or, where damping is weak, are so small that
-/// they hardly grow (|λ| h <= 0.5, by 0.8 % a step at most). Infinity where there are none.
+/// The longest stable step per stage, s, with such eigenvalues: the stages cover the real eigenvalues, and the complex
+/// ones lie within the disc of stability or, if damping is weak, are so small that they hardly grow (|λ| h <= 0.5, by
+/// 0.8 % a step at most). Infinity where there are none.
 double longest_step(const Scheme& scheme, const Spectrum& spectrum);
 
-/// Index of the table with the fewest stages that are stable for a step of h seconds. Where no number of stages is
-/// stable for the complex eigenvalues, of the fewest that reach over all sizes, or of the most.
+/// Index of the table with the fewest stages that are stable for a step of h seconds. If no number of stages is stable
+/// for the complex eigenvalues: index of the fewest stages that cover all sizes, or of the most.
 std::size_t table_for(const Scheme& scheme, const Spectrum& spectrum, double h);
 
 /// R(z) of the method of Runge, Kutta and Chebyshev of second order: a step takes y of y' = λy to R(λh) y.
@@ -32,7 +32,7 @@ std::complex<double> rkc2_growth(int stages, std::complex<double> z);
 
 // Exponential decay with identical bits on every system.
 
-/// What an exponential decay keeps and loses, as shares of 1.
+/// The fractions that an exponential decay keeps and loses.
 struct Decay {
   double kept = 1;  ///< e^-x
   double lost = 0;  ///< 1 - e^-x, with all its digits where x is small

@@ -9,20 +9,20 @@ namespace tyglab {
 
 struct Estimate;  // scheme.h
 
-/// What the inner steps have done since the engine was made.
+/// Counts of inner steps since the engine was created.
 struct InnerSteps {
   std::int64_t accepted = 0;
-  std::int64_t rejected = 0;      ///< thrown away: they erred by more than the tolerance
+  std::int64_t rejected = 0;      ///< rejected: their error exceeded the tolerance
   std::int64_t by_stability = 0;  ///< of the accepted: it, or one of the five before, was longer than is stable, or
                                   ///< longer ones would be unstable
-  std::int64_t by_accuracy = 0;   ///< longer ones would have erred by more than the tolerance
+  std::int64_t by_accuracy = 0;   ///< longer steps would have exceeded the tolerance
   std::int64_t by_dt = 0;         ///< one of them covered dt
-  std::int64_t too_short = 0;     ///< as short as allowed, and erred by more than the tolerance all the same
+  std::int64_t too_short = 0;     ///< as short as allowed, but with an error above the tolerance
   std::int64_t below_digits = 0;  ///< the tolerance was less than the last digit of a coordinate
   std::int64_t force_evaluations = 0;
 };
 
-/// What a tried step is checked by.
+/// The measures by which a tried step is checked.
 struct TriedStep {
   double error = 0;       ///< m; not finite where the step left all bounds
   double tolerance = 0;   ///< m
@@ -30,13 +30,13 @@ struct TriedStep {
   bool unstable = false;  ///< beyond_stability()
 };
 
-/// E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, II.4, with its stabilising
-/// exponent β = 0.04. In plain numbers, so that an engine can keep a copy.
+/// E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, II.4, with its stabilizing exponent
+/// β = 0.04. In plain numbers, so that an engine can keep a copy.
 class StepControl {
  public:
   static constexpr double shortest_part = 1e-4;  ///< of dt: a step is not made shorter
 
-  /// Forgets the steps before, but not the counts: something else than their motion has changed.
+  /// Forgets earlier steps, but not the counts: the scene has changed.
   void restart() { begun_ = false; }
   /// For a method with that order of the estimated error, whose steps are to be no longer than `longest`, s.
   void set_method(int order, double longest) { order_ = order, longest_ = longest; }
@@ -69,7 +69,7 @@ class StepControl {
 /// First length to try, s (Hairer's rule, II.4): v and a are the largest components of velocity and acceleration at the
 /// start, `change` the largest of how much the latter differs after `probe` seconds of Euler's method; m, s.
 double first_step(double tolerance, double v, double a, double change, double probe, int order);
-/// How far ahead to look for it, s: the time in which the motion goes a hundredth of L.
+/// The `probe` time, s: the time in which particles move by a hundredth of L.
 double first_probe(double L, double v, double a);
 
 /// Sums over all particles of products of how much two stages at one time differ: in x, v and a.

@@ -33,12 +33,13 @@ struct JsonNode::Member {
 /// "a number", "a string", … for error messages.
 std::string_view type_name(JsonNode::Type type);
 
-/// With control characters as spaces: a key of a file must not end an error message early, or reach a terminal as code.
+/// The text with control characters replaced by spaces, so a key in a file can neither cut an error message short nor
+/// reach a terminal as a control sequence.
 std::string printable(std::string text);
-/// At most that many bytes of the text, and a mark where it goes on: a link or a key may have megabytes.
+/// At most that many bytes of the text, with a mark if it continues: a link or a key may have megabytes.
 std::string excerpt(std::string_view text, std::size_t most = 60);
 
-/// Whether errors tell lines, or the text is one (a --set).
+/// Whether errors report lines; the text of a --set is a single line.
 enum class Lines { told, one };
 
 constexpr std::size_t max_json_values = 200000;  // a list of every pin of a large cloth's border fits well

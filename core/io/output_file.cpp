@@ -40,7 +40,7 @@ void wait_for_reader(const fs::path& file, int descriptor) {
   constexpr int moment = 50;  // ms
   while (!os::takes_bytes_within(moment, descriptor)) {
     if (stop_waiting && stop_waiting())
-      throw OutputError(output_name(file) + ": it has no reader, so what was to be written there is lost");
+      throw OutputError(output_name(file) + ": it has no reader, so the output is lost");
     if (descriptor < 0) return;
   }
 }
@@ -130,7 +130,7 @@ void OutputFile::open_stream(Order order) {
   if (order == Order::front_to_back || os::can_seek(descriptor_)) return;
   os::close(descriptor_);
   throw OutputError(file_.string() +
-                    ": what stands first in this output is written last, so it cannot be piped; name "
+                    ": the beginning of this output is written last, so it cannot be piped; name "
                     "a file, or -");
 }
 
@@ -155,10 +155,9 @@ void OutputFile::open_beside() {
     // What an earlier run left there, which nobody writes any more, makes room.
     const bool in_the_way = opened < 0 || (still_there && (!is_regular(opened) || !os::unlink(beside_)));
     if (opened >= 0) os::close(opened);
-    if (in_the_way)
-      throw OutputError(beside_.string() + ": is in the way of a new file; remove it, or choose another name");
+    if (in_the_way) throw OutputError(beside_.string() + ": blocks a new file; remove it, or choose another name");
     if (!mine)
-      throw OutputError(file_.string() + ": another program is writing it; wait for its end, or choose another name");
+      throw OutputError(file_.string() + ": another program is writing it; wait until it ends, or choose another name");
   }
 }
 

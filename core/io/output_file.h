@@ -11,25 +11,25 @@
 
 namespace tyglab {
 
-/// How far an output came, which decides whether it takes its name.
+/// The completeness of an output, which determines whether it takes its name.
 enum class Reach {
   whole,      ///< takes its name, and the place of an older file
-  stopped,    ///< whole in itself, but of work that was interrupted: takes its name unless an older file stands there
-  cut_short,  ///< the first part of what was asked for: does not take its name
+  stopped,    ///< complete in itself, but from interrupted work: takes its name unless an older file exists
+  cut_short,  ///< an incomplete output: does not take its name
 };
 
-/// Asked now and then while a pipe without a reader, or with a slow one, keeps an output waiting: a yes ends that with
-/// an OutputError. Nobody else waits for it.
+/// Called now and then while an output waits for a pipe without a reader or with a slow one; true ends the wait with an
+/// OutputError.
 void stop_waiting_outputs_when(Stop stop);
 
 /// Throws OutputError, with a sentence that says what to do, unless an output of that name can be written: where it
 /// names a folder, its folder is missing or closed, or a read-only file stands there. Nothing is touched.
 void check_output(const std::filesystem::path& file);
 
-/// Where an output of that name goes: absolute, and through links, also those to what is not there yet.
+/// The absolute path to which an output of that name goes, through links, including links to missing files.
 std::filesystem::path output_place(const std::filesystem::path& file);
 
-/// Where the part of an output stands that was written before an interrupt; empty if there is none.
+/// The file with the part of an output that was written before an interrupt; empty if there is none.
 std::filesystem::path incomplete_file(const std::filesystem::path& file);
 
 /// One output while it is written. A file grows beside its name as FILE.incomplete, so that an older file stays as it
@@ -55,7 +55,7 @@ class OutputFile {
   void write(std::string_view bytes);
   /// Writes over earlier bytes (Order::any). Throws OutputError.
   void write_at(std::uint64_t offset, std::string_view bytes);
-  /// What was written so far is useful by itself, and is kept if it goes no further.
+  /// Marks everything written so far as useful by itself: it is kept if the output ends here.
   void keep() { kept_ = size_; }
   /// No more is written. Throws OutputError; FILE.incomplete stays then, as far as keep() covers it.
   void end(Reach reach = Reach::whole);
@@ -99,17 +99,17 @@ void write_atomically(const std::filesystem::path& file, std::string_view text);
 /// Whether that name means standard output: "-", or "/dev/stdout", which would else be opened a second time.
 bool is_standard_output(const std::filesystem::path& file);
 
-/// What to call it in a sentence: "standard output", or the file.
+/// Its name in a sentence: "standard output", or the file.
 std::string output_name(const std::filesystem::path& file);
 
-/// What to say of an output that could not be written, errno being `error` (0: not known).
+/// The sentence for an output that could not be written, with errno `error` (0: unknown).
 std::string lost_output(const std::filesystem::path& file, int error);
 
 /// Writes an output in one go (OutputFile). Returns where the bytes are. Throws OutputError.
 std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes,
                                    Reach reach = Reach::whole);
 
-/// Sends what std::cout and stdout still hold on its way. Throws OutputError if any of it was lost.
+/// Flushes std::cout and stdout. Throws OutputError if any output was lost.
 void flush_standard_output();
 
 }  // namespace tyglab

@@ -14,7 +14,7 @@ namespace tyglab {
 
 struct JsonNode;
 
-/// A preset (or a --set) is wrong. `what()` names file, line, key and what is allowed.
+/// A preset (or a --set) is wrong. `what()` names file, line, key and the allowed values.
 class PresetError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,16 +22,16 @@ class PresetError : public std::runtime_error {
 
 inline constexpr int preset_version = 1;
 
-/// Parses and checks a whole preset. `source` names it in errors. `folder`: that of the preset's file, which then may
-/// name no texture outside it (texture_problem()). Throws PresetError; never returns half a preset.
+/// Parses and checks a whole preset. `source` names it in errors. `folder`: the folder of the preset's file, outside
+/// which it may name no texture (texture_problem()). Throws PresetError; never returns a partial preset.
 Preset parse_preset(std::string_view text, std::string_view source, const std::filesystem::path& folder = {});
 /// The same of a part of a larger JSON file; `at` is the path of its keys there ("session.preset").
 Preset preset_from(const JsonNode& root, std::string_view source, const std::filesystem::path& folder = {},
                    std::string_view at = {});
 /// Reads a file. Throws PresetError (missing, unreadable, wrong).
 Preset load_preset(const std::filesystem::path& file);
-/// Why a preset in that folder may not name this texture, so that who opens a stranger's preset opens no other file; or
-/// empty: it is a plain name, or lies in the folder or below it, where no link leads out of it either. Need not exist.
+/// Why a preset in that folder may not name this texture, so that a stranger's preset opens no other file; empty if the
+/// texture is a plain name, or lies in the folder or below it and no link leads out. It need not exist.
 std::string texture_problem(const std::string& texture, const std::filesystem::path& folder);
 /// JSON text with every key, one block a line, ready to be read and edited by a person.
 std::string preset_to_json(const Preset& preset);
@@ -44,20 +44,21 @@ std::string preset_hash(const Preset& preset);
 /// The same for settings as --set takes them: k_s=500, "W=[0,0,0.02]", "bodies[0].r=0.3".
 Preset with_settings(const Preset& preset, const std::vector<std::string>& settings);
 
-/// What differs between two presets as such settings, their descriptions apart: with_settings(from, these) is `to`.
+/// The differences between two presets as such settings, except for the descriptions: with_settings(from, these) is
+/// `to`.
 std::vector<std::string> settings_between(const Preset& from, const Preset& to);
 
-/// A setting and how it was typed, which is what errors call it.
+/// A setting, and its name in errors as it was typed.
 struct Setting {
   std::string typed;  ///< "--set k_s=500", "--dt 0.001"
   std::string key, value;
 };
-/// Takes "KEY=VALUE" apart. Throws PresetError.
+/// Splits "KEY=VALUE". Throws PresetError.
 Setting parse_setting(const std::string& text);
 /// Applies settings to a copy, in order, checks the whole, and returns it. Throws PresetError naming the setting.
 Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& settings);
 
-/// What would be wrong with this preset (as edited in a program), or empty. The same checks as for files.
+/// The first error of this preset (as edited in a program), or empty. The checks are those for files.
 std::string check_preset(const Preset& preset);
 
 // Reads files that a person may supply: never more than a size limit, and without blocking.

@@ -12,7 +12,7 @@
 
 namespace tyglab::os {
 
-/// What is known of a file without opening it.
+/// Facts about a file that is not open.
 struct FileFacts {
   bool regular = false, folder = false;
   std::uintmax_t size = 0;             ///< bytes
@@ -29,7 +29,7 @@ std::optional<FileFacts> facts_of(int descriptor);
 int open_to_read(const std::filesystem::path& file);
 /// Opens a new file to be read and written; fails with EEXIST if the name is taken. `closed`: for its owner alone.
 int open_new(const std::filesystem::path& file, bool closed);
-/// Opens the file of that name, and not what a link leads to.
+/// Opens the file of that name, but does not follow a link.
 int open_present(const std::filesystem::path& file);
 /// Opens a pipe or a device to be written; fails with ENXIO where a pipe has no reader yet.
 int open_stream(const std::filesystem::path& file);
@@ -38,7 +38,7 @@ int open_temporary();
 void close(int descriptor);
 /// Closes it; false if what was written did not arrive.
 bool close_written(int descriptor);
-/// Whether what was written has arrived, as far as the file system tells. It stays open, and locked.
+/// Whether everything written has arrived, as far as the file system reports. The file stays open and locked.
 bool arrived(int descriptor);
 
 /// Bytes that were read: 0 at the end.
@@ -50,9 +50,9 @@ std::int64_t write_at(int descriptor, const char* bytes, std::size_t count, std:
 void truncate(int descriptor, std::uint64_t size);
 bool can_seek(int descriptor);
 
-/// Whether this process has the file for itself now, or the file system knows no locks. It has it until it closes it.
+/// Whether this process has locked the file, or the file system has no locks. The lock lasts until the file is closed.
 bool lock(int descriptor);
-/// Whether that name still stands for what the descriptor has open.
+/// Whether that name still belongs to the open file of the descriptor.
 bool names(const std::filesystem::path& file, int descriptor);
 /// Gives a new file the owner and the permissions of an older one, as far as the system allows.
 void adopt(int descriptor, const FileFacts& older);
@@ -61,7 +61,7 @@ bool unlink(const std::filesystem::path& file);
 /// Gives an open file its name, in the place of the file that has it.
 bool rename(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Whether it takes bytes as they come: a pipe, a device, or a name for what a shell has opened (/dev/fd/3).
+/// Whether it accepts bytes as they come: a pipe, a device, or a file that a shell has opened (/dev/fd/3).
 bool is_stream(const std::filesystem::path& file);
 /// Whether this process may write the file, or make files in the folder.
 bool may_write(const std::filesystem::path& file);
@@ -86,9 +86,9 @@ namespace tyglab {
 /// A variable of the environment, in UTF-8; empty if it is not there.
 std::string environment(const char* name);
 
-/// Where programs keep their settings: XDG_CONFIG_HOME or ~/.config; on Windows %APPDATA%. Empty: nowhere.
+/// The folder of settings: XDG_CONFIG_HOME or ~/.config; on Windows %APPDATA%. Empty: nowhere.
 std::filesystem::path settings_base();
-/// Where programs keep what can be made again: XDG_CACHE_HOME or ~/.cache; on Windows %LOCALAPPDATA%. Empty: nowhere.
+/// The folder of caches: XDG_CACHE_HOME or ~/.cache; on Windows %LOCALAPPDATA%. Empty: nowhere.
 std::filesystem::path cache_base();
 /// HOME; on Windows %USERPROFILE%. Empty if it is not known.
 std::filesystem::path home_folder();

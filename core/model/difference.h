@@ -26,9 +26,9 @@ class Difference {
   Difference(const PresetRow& row, double value);
   Difference(std::size_t body, const BodyRow& row, double value);
 
-  /// Gives the preset that value. False, and nothing is changed, where it has no such body.
+  /// Sets that value in the preset. Returns false, without a change, if the preset has no such body.
   bool apply(Preset& preset) const;
-  /// The same constant with the value that it has in the preset; none where that has no such body.
+  /// The same constant with its value in the preset; none if the preset has no such body.
   std::optional<Difference> in(const Preset& preset) const;
   /// The value, if the constant is that one.
   template <class T>
@@ -39,7 +39,7 @@ class Difference {
 
   /// As --set names it: "dt", "bodies[0].r".
   std::string key() const;
-  /// The value to be read by people; numbers have up to that many significant digits.
+  /// The value for people; numbers have up to that many significant digits.
   std::string value_text(int digits = 6) const;
   /// "dt=0.001"
   std::string text() const { return key() + "=" + value_text(); }

@@ -38,7 +38,7 @@ class EffectSet {
   constexpr bool empty() const { return bits_ == 0; }
   /// Whether it has any of these.
   constexpr bool touches(EffectSet any) const { return (bits_ & any.bits_) != 0; }
-  /// Whether it has none but these.
+  /// Whether it has only these.
   constexpr bool within(EffectSet all) const { return (bits_ & ~all.bits_) == 0; }
 
   constexpr EffectSet& operator|=(EffectSet other) {

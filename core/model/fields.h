@@ -22,9 +22,9 @@ struct PresetField {
   const PresetRow* row = nullptr;  ///< of the notation table, where it has one
 };
 
-/// A field that is missing here is seen by no comparison: a test counts them.
+/// Comparisons ignore a field that is missing here, so a test counts the fields.
 std::span<const PresetField> preset_fields();
-/// What a change of the field asks of a scene that has become `preset`.
+/// The effects of a change of the field in a scene that has become `preset`.
 EffectSet effects_of(const PresetField& field, const Preset& preset);
 
 }  // namespace tyglab

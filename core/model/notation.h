@@ -39,7 +39,7 @@ struct Row {
   bool zero_is_off = false;   ///< 0 means never
   Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
   bool only_one_kind = false;
-  EffectSet of_weight = {};  ///< what a change asks for beside, of the mass on a spring
+  EffectSet of_weight = {};  ///< additional effect of a change for the mass on a spring
 };
 
 using PresetRow = Row<Preset>;
@@ -92,7 +92,7 @@ std::string short_number(double value, int digits = 4);
 std::string short_exponent(std::string text);
 /// Rounded to that many significant digits.
 double rounded(double value, int digits);
-/// With a capital at its beginning and a full stop at its end, unless it has one: "it fell" as "It fell.".
+/// The text with a capital letter and a period: "it fell" becomes "It fell.".
 std::string sentence(std::string text);
 /// The texts of a range's elements, one after the other: "cpu, opencl".
 template <class Range, class Text = std::identity>

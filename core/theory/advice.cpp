@@ -162,8 +162,8 @@ std::string advice(const Preset& p) {
            "a smaller " + stiffness + ", and restart; or use implicit Euler, which is stable at any stiffness.";
   if (counts_passes(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
-           "more iterations, and restart: linear theory sets no limit of dt for this method, but what few "
-           "iterations leave of a step, bodies and wind may overstretch springs" +
+           "more iterations, and restart: linear theory sets no limit of dt for this method, but the residual "
+           "of few iterations, bodies and wind may overstretch springs" +
            or_verlet(p, verlet_dt) + ".";
   if (projects(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +

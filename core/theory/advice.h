@@ -12,43 +12,42 @@
 namespace tyglab {
 
 /// The worst-case limit: largest dt at which the method is stable for any configuration of the cloth, by its
-/// linearisation (worst_modes); 0 where no dt is. From the method's own table (modes.h). One-sided springs
-/// switch, so it is advice and no guarantee.
+/// linearization (worst_modes); 0 where no dt is. From the method's own table (modes.h). One-sided springs switch, so
+/// the limit is a guide, not a guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
 
-/// 0.9 of it, s, in the two digits in which it is said; 0 where no dt is stable, infinity where every one is.
+/// 0.9 of that limit, s, in the two digits that messages show; 0 if no dt is stable, infinity if every dt is.
 double advised_dt(const Preset& preset, const std::string& integrator);
 
-/// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
+/// A sentence about inner steps that missed the tolerance, and a remedy; empty if none did.
 std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 
 /// "the cloth has 18,000 times the energy the scene can supply"; `excess`: Simulation::excess().
 std::string excess_in_words(double excess, const Preset& preset);
-/// Whether the motion has more energy than it can have been given, and what to do, likewise.
+/// A sentence about energy that the scene cannot have supplied, and a remedy; empty if there is none.
 std::string energy_in_excess(double excess, const Preset& preset);
 
-/// "12 of 3,400 steps stopped early"; `steps`: that have been made.
+/// "12 of 3,400 steps stopped early"; `steps`: the number of steps made.
 std::string stopped_early(const SolveCounts& solves, std::int64_t steps);
-/// Whether steps of an implicit method did not converge, and what to do, likewise.
+/// A sentence about steps that did not converge, and a remedy; empty if all did.
 std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& preset);
 
-/// What linear theory says of the method at the preset's dt, as the cause of a divergence (zones.h): words that go on
-/// after a colon.
+/// The part of the method in a divergence, by linear theory at the preset's dt (zones.h): words that follow a colon.
 std::string method_to_blame(const Preset& preset);
 
-/// What to change so that the preset does not diverge again.
+/// The changes after which the preset does not diverge again.
 std::string advice(const Preset& preset);
 
-/// Whether weight and wind stretch springs to a thousand times their rest length by any method: all that pulls is more
-/// than all springs of a seam across the cloth can hold there, and dt is one that linear theory calls stable.
+/// Whether weight and wind stretch springs to a thousand times their rest length with any method: the pull exceeds the
+/// force of all springs of a seam across the cloth, and linear theory calls dt stable.
 bool springs_too_weak(const Preset& preset);
-/// What to change where they do.
+/// Advice for such a preset.
 std::string advice_for_weak_springs(const Preset& preset);
 
-/// The preset with the change of integrator and dt that advice() names first, made; none where it names none.
+/// The preset with the change of integrator and dt that advice() names first; none if it names none.
 std::optional<Preset> suggested_fix(const Preset& preset);
 
-/// The preset with the dt that is advised for its own method; none where it has it already, or none is stable.
+/// The preset with the advised dt of its own method; none if it has that dt already, or no dt is stable.
 std::optional<Preset> with_advised_dt(const Preset& preset);
 
 }  // namespace tyglab

@@ -11,29 +11,30 @@
 
 namespace tyglab {
 
-/// One mode u of the cloth, |u| = 1: what it feels of stiffness and damping.
+/// The stiffness and damping of one mode u of the cloth, |u| = 1.
 struct Mode {
   double stiffness = 0;  ///< ω² = uᵀM⁻¹K u, 1/s²; negative where the cloth would buckle
   double damping = 0;    ///< 2ζω = uᵀM⁻¹C u, 1/s
   double omega() const;  ///< √stiffness, 1/s; 0 where it is negative
 };
 
-/// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (mass on a spring: k/m, k_d/m).
+/// The bound of all modes in any configuration: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (mass on a spring: k/m,
+/// k_d/m).
 Mode any_configuration(const Preset& preset);
-/// The modes that decide whether a method is stable in any configuration: the fastest, and in a damped cloth also those
-/// between stiffness and damping that some methods take worse (docs/model.md, "What the shape decides").
+/// The modes that decide whether a method is stable in any configuration: the fastest, and in a damped cloth also modes
+/// between stiffness and damping that are worse for some methods (docs/model.md, "What the shape decides").
 std::vector<Mode> worst_modes(const Preset& preset);
 
-/// Where the eigenvalues of all modes lie in any configuration.
+/// The region of the eigenvalues of all modes in any configuration.
 Spectrum any_spectrum(const Preset& preset);
 
-/// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large, or where
-/// linear theory has nothing to say of dt (has_step_limit).
+/// Largest dt (s) at which no mode grows; 0 if there is none, infinity if no dt is too large or linear theory has no
+/// limit (has_step_limit).
 double dt_crit(const Scheme& scheme, std::span<const Mode> modes);
-/// Factor by which all stiffness could grow before the method breaks at dt; 0 where it is broken at any, infinity where
-/// at none. With k_b = 0 that times k_s is the k_s at which it breaks.
+/// Factor by which all stiffness can grow before the method becomes unstable at dt; 0 if it is unstable at any
+/// stiffness, infinity if at none. With k_b = 0, this factor times k_s is the limit of k_s.
 double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, double dt);
-/// Growth per step in the long run, as a natural logarithm, of the mode that grows most; below 0 all die out.
+/// Growth per step in the long run, as a natural logarithm, of the fastest growing mode; below 0 all modes decay.
 double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double dt);
 
 // Linear stability of the explicit schemes, derived from their tables: the effect of one step on x'' = -ω² x - 2ζω x'.
@@ -46,7 +47,8 @@ struct Matrix {
   double at(int row, int column) const { return elements[std::size_t(row) * size + column]; }
 };
 
-/// What one step of dt = h/ω does to the scheme's state vectors, with ω = h and dt = 1: h = ω·dt, ζ >= 0.
+/// The matrix by which one step of dt = h/ω multiplies the scheme's state vectors, with ω = h and dt = 1: h = ω·dt, ζ
+/// >= 0.
 Matrix amplification(const Scheme& scheme, double h, double zeta);
 
 /// The largest |eigenvalue|: growth per step in the long run. By repeated squaring (Gelfand's formula).

@@ -13,7 +13,7 @@ namespace tyglab {
 
 /// stable: in any shape of the cloth. depends: some shapes are stable, others are not. unstable: in every shape in
 /// which at least one spring pulls, or in every shape at all where damping alone is too much. A mass on a spring has
-/// one shape, so that nothing depends on it.
+/// only one shape, so it has no zone `depends`.
 enum class Zone { stable, depends, unstable };
 
 /// "stable in any shape", "depends on the shape", "unstable in every shape"; of a mass on a spring "stable",
@@ -25,13 +25,13 @@ struct ZoneSpan {
   Zone zone;
 };
 
-/// A constant that decides over stability.
+/// A constant that affects stability.
 struct ZonedConstant {
   std::string_view key;
   double Preset::*field;
 };
-/// L has one zone only: the largest frequency does not depend on rest lengths, √((12 k_s + 8 k_b)/m), and a slider that
-/// shows so says that shortening springs is no fix.
+/// L has one zone only: the largest frequency does not depend on rest lengths, √((12 k_s + 8 k_b)/m), and its slider
+/// shows that shorter springs are no remedy.
 inline constexpr std::array<ZonedConstant, 6> zoned_cloth{{{"dt", &Preset::dt},
                                                            {"k_s", &Preset::k_s},
                                                            {"k_b", &Preset::k_b},
@@ -41,7 +41,7 @@ inline constexpr std::array<ZonedConstant, 6> zoned_cloth{{{"dt", &Preset::dt},
 inline constexpr std::array<ZonedConstant, 5> zoned_weight{
     {{"dt", &Preset::dt}, {"k", &Preset::k}, {"k_d", &Preset::k_d}, {"m", &Preset::m}, {"L", &Preset::L}}};
 
-/// The present zone. stable for methods that no dt makes unstable.
+/// The present zone; `stable` for methods that are stable at every dt.
 Zone zone_of(const Preset& preset);
 
 /// dt (s) above which the method is unstable in every shape: at least the worst-case limit (stable_dt), within a
@@ -50,7 +50,7 @@ double every_shape_limit(const Preset& preset);
 
 /// The zones from `least` (above 0) to `most` without gaps, borders within a thousandth of themselves. The first begins
 /// at 0 where the constant may be 0 and is in that zone there too. Where rounding decides, so that zones take turns,
-/// some of them are left out. Once it is stopped the result means nothing.
+/// some of them are left out. Once it is stopped, the result is meaningless.
 std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most,
                                       const Stop& stop = {});
 

@@ -23,9 +23,10 @@ TEST_CASE("the quickest engine is chosen, the CPU's where it is nearly so, and t
   const EngineChoice quick = choose_among({cpu(1), device(0, 0.5), device(1, 0.25), device(2, 0.3)}, false);
   CHECK(quick.engine == EngineKind::opencl);
   CHECK(quick.device == 1);
-  CHECK(quick.why ==
-        "OpenCL on a device: 0.25 ns per particle and step in this scene, against 0.3 ns with OpenCL on a device, "
-        "measured on an earlier run");
+  CHECK(
+      quick.why ==
+      "OpenCL on a device: 0.25 ns per particle and step in this scene, compared with 0.3 ns with OpenCL on a device, "
+      "measured in an earlier run");
   const EngineChoice alone = choose_among({cpu(1), device(0, 0, "it has not enough memory")}, true);
   CHECK(alone.engine == EngineKind::cpu);
   CHECK(alone.why == "the CPU engine, since no other engine runs this scene: it has not enough memory");

@@ -174,7 +174,7 @@ TEST_CASE("a refusal never contradicts its figures, and what it offers can be ha
       }
       if (!refusal.tightest) continue;
       CHECK(*refusal.tightest > tolerance);
-      CHECK(figure_after("can be promised is ") == doctest::Approx(*refusal.tightest));
+      CHECK(figure_after("can be guaranteed is ") == doctest::Approx(*refusal.tightest));
       CHECK_FALSE(reached_or_refused(known, *refusal.tightest).empty());
     }
   }

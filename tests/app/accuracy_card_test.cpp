@@ -46,11 +46,11 @@ TEST_CASE(
   study.of = test::cloth(8, 8, "verlet");
   study.of.dt = 0.001;
   CHECK(measuring_words(study, 0) ==
-        "Measuring the error of Verlet at dt = 0.001 s. First come two fine runs to compare with: 0 % done; this "
+        "Measuring the error of Verlet at dt = 0.001 s. First come two fine runs for comparison: 0 % done; this "
         "usually takes a few seconds.");
   study.reference.seconds = 0.25, study.reference_part = 0.25;
   CHECK(measuring_words(study, 1.5) ==
-        "Measuring the error of Verlet at dt = 0.001 s over the next 0.25 s. First come two fine runs to compare with: "
+        "Measuring the error of Verlet at dt = 0.001 s over the next 0.25 s. First come two fine runs for comparison: "
         "25 % done, about 5 s left.");
   CHECK(measuring_words(study, 0.1).find("less than 1 s left") != std::string::npos);
   study.reference_part = 1;
@@ -100,7 +100,7 @@ TEST_CASE("the finder says how far it is, what it found, and what can be promise
   const auto words = [&](double tolerance) { return finder_words(search, tolerance, search.of); };
   CHECK(words(1e-3).find("over the 1 s from t = 0 s") != std::string::npos);
   CHECK(words(1e-3).find("whole second") == std::string::npos);
-  CHECK(words(1e-5).find("The tightest tolerance that can be promised is 2e-4 m.") != std::string::npos);
+  CHECK(words(1e-5).find("The tightest tolerance that can be guaranteed is 2e-4 m.") != std::string::npos);
   CHECK(words(1e-6).find("differ by 1e-6 m") != std::string::npos);
   search.present = point("euler", 3e-3, 0.2);
   CHECK(words(1e-3).find(" Now: error 0.003 m") != std::string::npos);
@@ -115,7 +115,7 @@ TEST_CASE("the finder says how far it is, what it found, and what can be promise
   CHECK(words(1e-3) == "Trying methods: 3 of 8 done, " + tried);
   CHECK(finder_words(search, 1e-3, search.of, true) == "Stopped after 3 of 8 methods, " + tried);
   search.methods = 0, search.reference_part = 0.25;
-  CHECK(words(1e-3) == "First fine runs to compare with, from t = 0 s: 25 % done.");
+  CHECK(words(1e-3) == "First come fine runs for comparison, from t = 0 s: 25 % done.");
   CHECK(finder_words(search, 1e-3, search.of, true).find("Stopped before any method was tried") != std::string::npos);
 }
 

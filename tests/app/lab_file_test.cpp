@@ -184,7 +184,8 @@ TEST_CASE("a check says over which part of the motion it is judged") {
                             "k_s narrowed to 0 % in 0.5 s when diverged = yes", "k_s narrowed to 5 % in 0.5 s when",
                             "k_s narrowed when diverged = yes", "energy narrowed to 5 % in 1 s when diverged = yes"})
     CHECK(problem_in("check: " + std::string(wrong)) != "none");
-  CHECK(says(problem_in("check: energy narrowed to 5 % in 1 s when diverged = yes"), "a constant is narrowed down so"));
+  CHECK(says(problem_in("check: energy narrowed to 5 % in 1 s when diverged = yes"),
+             "a constant is narrowed down as in"));
   CHECK(words_of(check("untouched = yes throughout")) == "Nothing else changed throughout");
   CHECK(words_of(check("untouched = no")) == "Something else changed");
   CHECK(says(problem_in("check: k_s > 3 N/m thruoghout"), "my.md:8: \"thruoghout\" ends no check; did you mean"));
@@ -223,7 +224,7 @@ TEST_CASE("a step says what is to be seen, and a lab how long it takes") {
   CHECK(says(problem_in("view: 6"), "view: is 1 (triangles)"));
   CHECK(says(problem_in("view: 1.5"), "view: is 1 (triangles)"));
   CHECK(says(problem_in("color: tensoin"), "did you mean tension?"));
-  CHECK(says(problem_in("minutes: 15"), "minutes: is of the whole lab"));
+  CHECK(says(problem_in("minutes: 15"), "minutes: applies to the whole lab"));
   const auto problem_of_head = [](const std::string& lines) {
     return problem_of("# A lab\n\n```lab\n" + lines + "\n```\n\n## A step\n\nText.\n");
   };

@@ -278,13 +278,13 @@ TEST_CASE("lab: tearing, done wrongly") {
   play.set("F_max=0.08");
   play.run(0.2);
   CHECK_FALSE(play.done());  // it tore at another F_max
-  CHECK(play.card(0).ends_with(" · at 0.02 N; one near it at which it does not is to be found"));
+  CHECK(play.card(0).ends_with(" · at 0.02 N; find a value near it at which it does not"));
   play.set("F_max=0.085");
   play.restart();
   play.run(3);
   CHECK(*observe(play.session(), "torn") >= 100);
   CHECK_FALSE(play.done());  // the fall tore it
-  CHECK(play.card(0).ends_with(" · at 0.02 N; one near it at which it does not is to be found"));
+  CHECK(play.card(0).ends_with(" · at 0.02 N; find a value near it at which it does not"));
   play.restart();
   play.set("F_max=0");
   play.run(2.5);

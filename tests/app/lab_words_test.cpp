@@ -57,7 +57,7 @@ TEST_CASE("the card says what is now, and of what is to be found no more than th
   play.predict("200");
   play.update();
   const std::string narrowed =
-      "k_s to within 5 %: a value at which the cloth diverges, and one at which not in 0.5 s · ";
+      "k_s to within 5 %: find a value at which the cloth diverges, and one at which it does not in 0.5 s · ";
   CHECK(play.card(0) == narrowed + "neither found yet");
   CHECK(play.card(2) == "Integrator: Verlet so far");
   play.set("k_s=300");
@@ -69,11 +69,11 @@ TEST_CASE("the card says what is now, and of what is to be found no more than th
   play.update();
   CHECK(play.card(1) == "k_s was 300 N/m at t = 0.016 s: restart");
   CHECK(play.session().simulation->divergence());
-  CHECK(play.card(0) == narrowed + "at 300 N/m; one near it at which it does not is to be found");
+  CHECK(play.card(0) == narrowed + "at 300 N/m; find a value near it at which it does not");
   play.set("k_s=180");
   play.restart();
   play.run(0.6);
-  CHECK(play.card(0) == narrowed + "at 300 N/m, not at 180 N/m: come nearer");
+  CHECK(play.card(0) == narrowed + "at 300 N/m, not at 180 N/m: find closer values");
   play.skip();
   play.choose(1);
   play.set("k_s=300");

@@ -72,7 +72,7 @@ TEST_CASE("each mark of the gauge says what it is; the cloth's own limit is no p
   const auto marks = gauge_marks(made_up(1.29e-3), 7.5e-4);
   REQUIRE(marks.size() == 4);
   CHECK(says(marks[0].words, "this cloth's own limit as it hangs now: 0.00129 s"));
-  CHECK(says(marks[0].words, "promises nothing"));
+  CHECK(says(marks[0].words, "guarantees nothing"));
   CHECK(says(marks[1].words, "the worst-case limit, 0.001 s. Up to it, Verlet is stable in any shape"));
   CHECK(says(marks[2].words, "above 0.00346 s, Verlet is unstable in every shape in which a spring pulls"));
   CHECK(says(marks[3].words, "dt is 75 %"));

@@ -31,6 +31,14 @@ struct ThroughputRow {
   double over_one_thread = 0;                  ///< median of the ratios to one thread's runs; 0: not compared
 };
 
+/// The limit for throughput: nanoseconds for one particle's arithmetic of one step on one core of this machine, with
+/// the instruction set that the sweep uses: four stretch springs with damping and two bending springs, each once and
+/// added to both its ends, gravity and Verlet's update; no loads of particles, no stores. The best of `repeats` runs of
+/// a few milliseconds.
+namespace cpu {
+double register_limit_ns(Precision precision, int repeats);
+}
+
 /// Of one value at least.
 double median(std::vector<double> values);
 

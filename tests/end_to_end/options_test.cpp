@@ -194,7 +194,8 @@ TEST_CASE("a step's time can be limited where it can end early, and is told with
   CHECK(outcome.err.find("3 of 3 steps stopped early (up to ") != std::string::npos);
   CHECK(outcome.err.find("The time limit ended them (the longest took ") != std::string::npos);
   CHECK(test::read_file(folder / "a.json").find("\"ended_early\": 3") != std::string::npos);
-  check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2, "what a step of tr_bdf2 leaves unsolved");
+  check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2,
+        "a step of tr_bdf2 amplifies the part that it leaves unsolved");
   check(folder, with({"--integrator", "verlet", "--step-limit", "1"}), 2, "a step of verlet always does the same work");
   check(folder, with({"--step-limit", "0"}), 2, "--step-limit");
   check(folder, {"run", "one_weight", "--steps", "3", "--integrator", "implicit_euler", "--step-limit", "1"}, 2,

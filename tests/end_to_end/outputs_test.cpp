@@ -199,8 +199,8 @@ TEST_CASE("2: an output under the name that another has until it is whole, or th
     CHECK(ended.code == 2);
     CHECK(ended.err.find(words) != std::string::npos);
   };
-  refused({"--state", "a.csv", "--series", "a.csv.incomplete"}, "until it is whole");
-  refused({"--state", "a.csv.incomplete", "--series", "a.csv"}, "until it is whole");
+  refused({"--state", "a.csv", "--series", "a.csv.incomplete"}, "until it is complete");
+  refused({"--state", "a.csv.incomplete", "--series", "a.csv"}, "until it is complete");
   refused({"--obj", "frames", "--state", "frames/hanging_0001.obj"}, "--obj writes frames in that folder");
   CHECK(std::filesystem::is_empty(folder.path()));
   const auto beside = test::tyglab(folder.path(), {"run", "hanging", "--steps", "1", "--state", "hanging_0001.obj"});

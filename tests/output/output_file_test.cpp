@@ -183,11 +183,11 @@ TEST_CASE("what cannot be written is refused before any work, by its name") {
   fs::create_symlink("circle.csv", folder / "circle.csv");
   CHECK(refusal(folder / "circle.csv").find("leads back to itself") != std::string::npos);
   REQUIRE(::mkfifo((folder / "pipe.csv.incomplete").c_str(), 0600) == 0);
-  CHECK(refusal(folder / "pipe.csv").find("is in the way") != std::string::npos);
+  CHECK(refusal(folder / "pipe.csv").find("blocks a new file") != std::string::npos);
   fs::create_directory(folder / "taken.csv.incomplete");
   CHECK(refusal(folder / "taken.csv").find("taken.csv.incomplete") != std::string::npos);
   fs::create_symlink("/etc/passwd", folder / "trap.csv.incomplete");
-  CHECK(refusal(folder / "trap.csv").find("trap.csv.incomplete: is in the way") != std::string::npos);
+  CHECK(refusal(folder / "trap.csv").find("trap.csv.incomplete: blocks a new file") != std::string::npos);
 }
 
 TEST_CASE("a link stays a link, and the other names of a replaced file keep the older content") {

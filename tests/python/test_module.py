@@ -247,7 +247,7 @@ class Simulations(unittest.TestCase):
             try:
                 simulation.energy
             except RuntimeError as error:
-                refused = "another thread" in str(error)
+                refused = "Another thread" in str(error)
         worker.join()
         self.assertTrue(refused)
         self.assertEqual(simulation.steps, 300)

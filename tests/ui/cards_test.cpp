@@ -276,7 +276,7 @@ TEST_CASE("a search for settings is stopped with the button that began it, and b
   CHECK(window.drew("Stopped"));
   CHECK_FALSE(watch.search()->done);
   window.click("plots.Find");
-  window.until([&] { return window.drew("First fine runs"); }, "the search to begin anew");
+  window.until([&] { return window.drew("First come fine runs"); }, "the search to begin anew");
   CHECK(watch.searching());
 }
 
@@ -292,7 +292,7 @@ TEST_CASE("an error that cannot be promised is refused, and the tightest that ca
   window.click("plots.Find");
   window.until([&] { return search() && search()->done; }, "the search to end");
   window.frames(2);  // the card makes room for what is said
-  CHECK(window.drew("The tightest tolerance that can be promised is"));
+  CHECK(window.drew("The tightest tolerance that can be guaranteed is"));
   CHECK_FALSE(window.sees("plots.setting1"));
   const double tightest = tightest_tolerance(*search());
   window.frames(2);

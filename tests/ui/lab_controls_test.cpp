@@ -56,12 +56,12 @@ TEST_CASE("Next says what it waits for: the prediction first, then the checks") 
   begin(window, "03_stiffness");
   window.move(window.middle("lab.Next"));
   window.frames(60);
-  CHECK(window.drew("Once the prediction is made and the checks hold; Skip goes on without that"));
+  CHECK(window.drew("Once the prediction is made and the checks hold; Skip continues without that"));
   window.click("lab.prediction");
   type_prediction(window, "5");
   window.move(window.middle("lab.Next"));
   window.frames(60);
-  CHECK(window.drew("Once the checks hold; Skip goes on without that"));
+  CHECK(window.drew("Once the checks hold; Skip continues without that"));
 }
 
 TEST_CASE("what cannot be negative is not predicted so") {

@@ -392,7 +392,7 @@ TEST_CASE("the list of labs has their numbers, minutes and purposes") {
   window.frames(2);
   CHECK(window.drew("3 steps · 15 min"));
   CHECK(window.drew("done"));
-  CHECK(window.drew("A spring, a mass, and then a whole cloth of them"));
+  CHECK(window.drew("A mass on a spring, and then a whole cloth"));
 }
 
 TEST_CASE("who leaves a lab is told how far it was gone through, whichever way is taken") {
@@ -538,7 +538,7 @@ TEST_CASE("in a narrower window a lab takes at most 35 % of the height, and its 
     CHECK((pages.count > 1) == window.sees("lab.page_on"));
     predict(window, "200");
     window.frames(2);
-    CHECK(window.drew("Run, and raise k_s little by little"));  // the task comes into sight by itself
+    CHECK(window.drew("Run the motion, and raise k_s"));  // the task comes into sight by itself
     CHECK((pages.count > 1 || size.x != 600));
     while (pages.at > 0) window.click("lab.page_back");
     CHECK(window.drew("The stiffer a cloth, the faster it can oscillate"));

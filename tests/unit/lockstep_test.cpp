@@ -171,7 +171,7 @@ TEST_CASE("a copy that cannot follow a change is gone, with a word") {
   cloths.apply(edit::Change{next});
   CHECK(cloths.copies.empty());
   REQUIRE(cloths.gone.size() == 1);
-  CHECK(cloths.gone[0].find("The copy with bodies[0].r=0.1 is gone: ") == 0);
+  CHECK(cloths.gone[0].find("The copy with bodies[0].r=0.1 was removed: ") == 0);
 }
 
 }  // namespace tyglab::lockstep_test

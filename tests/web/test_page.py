@@ -298,7 +298,7 @@ class Tests:
         page = self.browser.page(f"{self.home}/?report#hanging&k_s=80")
         page.started()
         page.ask("document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()")
-        page.wait(f"{words}.includes('taken the graphics') && {retry}.checkVisibility()", 30)
+        page.wait(f"{words}.includes('withdrawn graphics') && {retry}.checkVisibility()", 30)
         self.shot(page, "lost")
         page.ask(f"void {retry}.click()")
         time.sleep(1)

@@ -126,9 +126,9 @@ int accuracy(const AccuracyOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
-      << "\nCPU time in ms, on one thread (OpenCL: wall time), at which the rms error of all positions "
-         "falls below the given number of meters;\n"
-         "* is the method's largest stable dt, - an error that it does not reach or that the reference cannot tell\n"
+      << "\nCPU time in ms, on one thread (OpenCL: wall time), at which the rms error of all positions falls below the "
+         "given number of meters;\n* is the method's largest stable dt, - an error that it does not reach or that the "
+         "reference cannot resolve\n"
       << std::flush;
   std::vector<AccuracyResult> results;
   InterruptGuard guard;

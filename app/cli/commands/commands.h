@@ -13,7 +13,7 @@ int run_command_line(int argc, char** argv);
 /// Adds all commands.
 void declare_program(CLI::App& program, Action& action);
 
-/// Makes the sandbox what the program does when no command is named: `tyglab [PRESET]`.
+/// Makes the sandbox the default action without a command: `tyglab [PRESET]`.
 void add_sandbox_command(CLI::App& program, Action& action);
 /// `tyglab run`: simulates without a window.
 void add_run_command(CLI::App& program, Action& action);

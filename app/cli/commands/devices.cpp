@@ -117,11 +117,10 @@ void print_opencl() {
 int devices() {
   print_cpu();
   if (const std::string death = print_in_child(print_opencl); !death.empty())
-    std::cout
-        << "\nAn OpenCL driver of this system crashed (" << death
-        << ") while its devices were listed and tested. Pocl does so if /sys is not mounted, if there is no linker "
-           "(apt-get install binutils), or without room in its cache folder. What it said is in "
-        << driver_log().string() << ".\n";
+    std::cout << "\nAn OpenCL driver of this system crashed (" << death
+              << ") while its devices were listed and tested. Pocl does so if /sys is not mounted, if there is no "
+                 "linker (apt-get install binutils), or without room in its cache folder. Its output is in "
+              << driver_log().string() << ".\n";
   return exit_done;
 }
 

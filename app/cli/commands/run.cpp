@@ -338,14 +338,15 @@ std::string closing(const Json& summary, const std::string& also) {
 /// Whether steps of these can end early.
 void check_step_limit(const Preset& preset) {
   if (preset.engine == EngineKind::opencl)
-    throw UsageError("--step-limit: the OpenCL engine solves to the end; use --engine cpu");
+    throw UsageError("--step-limit: the OpenCL engine always completes its solves; use --engine cpu");
   if (preset.kind == Kind::one_weight)
     throw UsageError("--step-limit: a mass on a spring is solved at once; leave the option out");
   const Scheme& method = scheme(preset.integrator);
   if (can_end_early(method)) return;
   throw UsageError("--step-limit: " +
-                   (is_implicit(method) ? "what a step of " + preset.integrator + " leaves unsolved, it enlarges"
-                                        : "a step of " + preset.integrator + " always does the same work") +
+                   (is_implicit(method)
+                        ? "a step of " + preset.integrator + " amplifies the part that it leaves unsolved"
+                        : "a step of " + preset.integrator + " always does the same work") +
                    "; use implicit_euler, projective_dynamics or vbd, or leave the option out");
 }
 

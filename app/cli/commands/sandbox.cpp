@@ -62,8 +62,8 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.color = field_called(options.color);
   sandbox.lab = options.lab, sandbox.lab_step = options.lab_step, sandbox.panels = !options.no_panels;
   if (display_there()) return run_sandbox(sandbox);
-  if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
-  if (!options.lab.empty()) std::cerr << "--lab begins a lab in a window, so it is not begun.\n";
+  if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so no report is written.\n";
+  if (!options.lab.empty()) std::cerr << "--lab starts a lab in a window, so it has no effect here.\n";
   return run_headless(sandbox, people(outputs));
 }
 
@@ -110,10 +110,10 @@ void add_sandbox_command(CLI::App& program, Action& action) {
       ->type_name("auto|all|few")
       ->check(CLI::IsMember({"auto", "all", "few"}).description(""));
   add_color_option(program, options->color, true);
-  program.add_option("--lab", options->lab, "Begin a lab, by its name in `tyglab labs`")
+  program.add_option("--lab", options->lab, "Start a lab, by its name in `tyglab labs`")
       ->type_name("NAME")
       ->check(not_empty());
-  program.add_option("--lab-step", options->lab_step, "Begin the lab at step N")
+  program.add_option("--lab-step", options->lab_step, "Start the lab at step N")
       ->type_name("N")
       ->transform(whole_number_between(1, 1'000));
   program.add_flag("--no-panels", options->no_panels, "Show the cloth alone, as Tab does");

@@ -8,9 +8,9 @@ namespace tyglab {
 
 /// The first line of every shader.
 const char* shader_version();
-/// What follows it before the shader's own text: lines, or nothing.
+/// The lines between that line and the shader's own text, if any.
 const char* shader_preamble();
-/// Switches on what a browser always has on: smooth edges of targets with several samples, points sized by shaders.
+/// Enables the features that are always on in browsers: multisampling, and points sized by shaders.
 void enable_smooth_edges_and_point_sizes();
 /// Whether GL_TIME_ELAPSED can be asked for.
 bool drawing_can_be_timed();

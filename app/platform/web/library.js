@@ -184,7 +184,7 @@ addToLibrary({
       try {
         sessionStorage.setItem('tyglab:address', location.href);
       } catch (error) {
-        console.warn('Tyglab: this tab keeps nothing: ' + error.message);
+        console.warn('Tyglab: this tab cannot store its address: ' + error.message);
       }
     },
     // A file of the person's, put where the program finds it: in the current folder, so that it is told of by its name, and
@@ -441,7 +441,7 @@ addToLibrary({
       keep(UTF8ToString(folder));
       return 1;
     } catch (error) {  // where storage is blocked its very name throws
-      console.warn('Tyglab: nothing can be kept: ' + error.message);
+      console.warn('Tyglab: nothing can be stored: ' + error.message);
       return 0;
     }
   },

@@ -5,7 +5,7 @@
 namespace tyglab {
 namespace {
 
-constexpr auto no_processes = "the edition for browsers starts no processes; use the desktop's";
+constexpr auto no_processes = "the browser edition starts no processes; use the desktop edition";
 
 }  // namespace
 

@@ -40,7 +40,7 @@ std::vector<std::uint8_t> read_pixels(int width, int height) {
 }
 
 HeadlessContext::HeadlessContext() {
-  throw GraphicsError("Images without a window cannot be drawn in this edition; open the page, or use the desktop's");
+  throw GraphicsError("This edition cannot draw images without a window; open the page, or use the desktop edition");
 }
 
 HeadlessContext::~HeadlessContext() = default;
@@ -108,7 +108,7 @@ void ask_for_file(const std::string& endings) {
 
 void keep_files(const std::filesystem::path& folder) {
   if (tyglab_keep_files(folder.c_str()) == 0)
-    throw OutputError("The browser keeps nothing for this site: its storage is full or blocked");
+    throw OutputError("The browser stores no data for this site: its storage is full or blocked");
 }
 
 bool clipboard_took() {

@@ -9,9 +9,8 @@
 namespace tyglab {
 
 const char* driver_advice() {
-  return "Install the newest driver of the graphics card's maker. Over a remote desktop and in virtual machines there "
-         "is "
-         "often none; all commands but tyglab render work without it (tyglab --help).";
+  return "Install the newest driver from the maker of the graphics card. Remote desktops and virtual machines often "
+         "have none; all commands but tyglab render work without it (tyglab --help).";
 }
 
 const char* display_advice() {
@@ -33,10 +32,9 @@ constexpr int major_version = 0x2091, minor_version = 0x2092, profile_mask = 0x9
 using MakeContext = HGLRC(WINAPI*)(HDC, HGLRC, const int*);
 
 [[noreturn]] void fail(const std::string& what) {
-  throw GraphicsError(
-      what + " (Windows error " + std::to_string(::GetLastError()) +
-      "). Drawing needs a graphics driver with OpenGL 3.3; install the newest one of the graphics card's "
-      "maker");
+  throw GraphicsError(what + " (Windows error " + std::to_string(::GetLastError()) +
+                      "). Drawing needs a graphics driver with OpenGL 3.3; install the newest driver from the maker of "
+                      "the graphics card");
 }
 
 /// A window that is never shown, since Windows makes contexts for windows alone.
@@ -55,7 +53,7 @@ void choose_format(HDC device) {
   wish.dwFlags = PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER;
   wish.iPixelType = PFD_TYPE_RGBA, wish.cColorBits = 32, wish.cDepthBits = 24;
   const int format = ::ChoosePixelFormat(device, &wish);
-  if (format == 0 || ::SetPixelFormat(device, format, &wish) == 0) fail("No OpenGL is there");
+  if (format == 0 || ::SetPixelFormat(device, format, &wish) == 0) fail("OpenGL is not available");
 }
 
 HGLRC core_context(HDC device) {
@@ -82,7 +80,7 @@ GLADapiproc address_of(const char* name) {
 
 HeadlessContext::HeadlessContext() {
   const HWND window = hidden_window();
-  if (window == nullptr) fail("A window could not be made");
+  if (window == nullptr) fail("A window could not be created");
   display_ = window;
   const HDC device = ::GetDC(window);
   try {

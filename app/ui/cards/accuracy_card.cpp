@@ -71,13 +71,13 @@ std::string stability_sentence(const StabilityLimits& limits) {
   if (projects(method)) return "XPBD projects positions: linear theory does not cover it.";
   if (counts_passes(method))
     return std::string(method.title) + " stops after " + std::to_string(limits.of.iterations) +
-           (limits.of.iterations == 1 ? " pass" : " passes") + ": linear theory does not cover what they leave.";
+           (limits.of.iterations == 1 ? " pass" : " passes") + ": linear theory does not cover their residual.";
   if (limits.region) return region_sentence(*limits.region);
-  if (chooses_steps(method)) return "This method keeps its own steps stable, as far as dt allows.";
+  if (chooses_steps(method)) return "This method keeps its inner steps stable, as far as dt allows.";
   const double h = limits.fastest.omega() * limits.of.dt;
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
   const double radius = spectral_radius(amplification(method, h, zeta));
-  const std::string of = limits.at_start ? "As the cloth starts, its fastest mode has ω·dt = "
+  const std::string of = limits.at_start ? "At the start, the fastest mode has ω·dt = "
                          : limits.now    ? "The fastest mode now has ω·dt = "
                                          : "The fastest possible mode has ω·dt = ";
   const std::string by = short_number(rounded(100 * std::abs(radius - 1), 2)) + " % per step.";
@@ -179,8 +179,8 @@ std::string measuring_words(const AccuracyStudy& study, double elapsed) {
   if (!chooses_steps(scheme(of.integrator))) words += " at dt = " + quantity(of.dt, "s");
   if (study.reference.seconds > 0) words += " over the next " + quantity(study.reference.seconds, "s", 2);
   const double part = study.reference_part;
-  if (part >= 1) return words + ". The fine runs to compare with are done; the run with these settings follows.";
-  words += ". First come two fine runs to compare with: " + std::to_string(int(100 * part)) + " % done";
+  if (part >= 1) return words + ". The fine runs for comparison are done; the run with these settings follows.";
+  words += ". First come two fine runs for comparison: " + std::to_string(int(100 * part)) + " % done";
   constexpr double telling = 0.05;  // before that, the time so far says little
   if (part < telling) return words + "; this usually takes a few seconds.";
   const double left = elapsed * (1 - part) / part;
@@ -258,10 +258,9 @@ void accuracy_ways(Ui& ui) {
   if (const int k = segments(ui, "accuracy ways", accuracy_way_names, 3, int(side), ways_room_at_1, card_width(ui));
       k >= 0)
     side = AccuracySide(k);
-  tooltip(
-      ui, gui::item_id(),
-      "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on. Find settings: which methods and dt "
-      "keep an error that you choose, and what they cost.");
+  tooltip(ui, gui::item_id(),
+          "Convergence: the error of the motion from now on with dt, dt/2, dt/4, … Find settings: the methods and dt "
+          "that keep within an error of your choice, and their cost.");
   const auto at_right = [&](int n) {
     ImGui::SetCursorScreenPos(
         {lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)), lo.y + whole - ui.theme.px(under_ways_at_1 + 24)});
@@ -282,18 +281,18 @@ constexpr EffectSet settings_of_the_method{Effect::integrator, Effect::dt, Effec
 /// What there is to wait for while there is no result for the present constants.
 std::string waiting_words(const Ui& ui) {
   const Session& session = ui.session;
-  if (session.simulation->divergence()) return "Nothing is measured once the cloth has diverged: restart it.";
+  if (session.simulation->divergence()) return "The cloth has diverged: restart it to measure again.";
   const AccuracyWatch& watch = session.studies.accuracy;
   const auto measuring = watch.measuring();
   if (measuring && changes(measuring->of, session.preset()).within(motionless))
     return measuring_words(*measuring, session.now - watch.begun());
   if (session.simulation->held()) return "The error is measured once you let go of the cloth.";
-  return "The error is measured as soon as the constants stand still for a moment.";
+  return "The error is measured once the constants stop changing for a moment.";
 }
 
 /// Beside a result that is of an earlier moment.
 std::string later_words(const AccuracyStudy& measuring) {
-  return " It is being measured again from t = " + time_number(measuring.at.t, measuring.of.dt) +
+  return " The error is being measured again from t = " + time_number(measuring.at.t, measuring.of.dt) +
          " s: " + std::to_string(int(100 * measuring.reference_part)) + " % of the fine runs are done.";
 }
 
@@ -320,13 +319,12 @@ void errors_shown(Ui& ui, float height) {
 /// How far the measurement of the order is.
 std::string order_words(const Ui& ui, const std::optional<Convergence>& study) {
   const std::string method(scheme(ui.session.preset().integrator).title);
-  if (!study && ui.session.simulation->divergence())
-    return "Nothing is measured once the cloth has diverged: restart it.";
-  if (!study) return "The order of " + method + " is measured as soon as the constants stand still for a moment.";
+  if (!study && ui.session.simulation->divergence()) return "The cloth has diverged: restart it to measure again.";
+  if (!study) return "The order of " + method + " is measured once the constants stop changing for a moment.";
   const std::string over = " over the next " + quantity(study->seconds, "s", 2);
   if (study->points.empty())
     return "Measuring the order of " + method + (study->seconds > 0 ? over : "") +
-           ". First come fine runs to compare with, then " + std::to_string(convergence_levels) +
+           ". First come fine runs for comparison, then " + std::to_string(convergence_levels) +
            " runs with dt, dt/2, dt/4, …";
   return "Measuring the order of " + method + over + ": " + std::to_string(study->points.size()) + " of " +
          std::to_string(convergence_levels) + " runs done; each takes about twice as long as the one before it.";

@@ -20,8 +20,8 @@ constexpr float cost_at_1 = 56, apart_at_1 = 84, remove_at_1 = 26;         // co
 constexpr float beside_from_at_1 = 262;                                    // in a narrower card names stand above
 constexpr float menu_at_1 = 300;                                           // its greatest height
 constexpr const char* copies_explanation =
-    "Copies run alongside this cloth with the same start, hand and wind, each with another method, dt or constant: "
-    "see where their motions part.";
+    "Copies run alongside this cloth with the same start, hand and wind, each with another method, dt or constant. "
+    "Compare their motions.";
 constexpr const char* add_label = "Add a copy with…";
 constexpr std::array<const char*, 2> copies_ways{"Split view", "Overlaid"};
 
@@ -93,8 +93,8 @@ void head(Ui& ui) {
   const Columns at = columns_of(ui);
   if (costs_shown(ui))
     column_head(ui, "cost", {lo.x + at.cost - ui.theme.px(cost_at_1), lo.y}, lo.x + at.cost, "CPU, s/s",
-                "CPU seconds per simulated second, on the thread that makes the steps. What other programs take "
-                "meanwhile does not count, except with OpenCL.");
+                "CPU seconds per simulated second, on the thread that makes the steps. Time of other programs does not "
+                "count, except with OpenCL.");
   column_head(
       ui, "distance", {lo.x + at.apart - ui.theme.px(apart_at_1), lo.y}, lo.x + at.apart, "distance, m",
       "Root mean square (rms) of the distances between the particles of this cloth and those of the reference.");

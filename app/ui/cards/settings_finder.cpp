@@ -235,12 +235,11 @@ void finder_part(Ui& ui) {
   if (!watch.tolerance())
     return finder_text(
         ui,
-        "Tries methods and dt on the next second of this motion, and ranks those that keep this error by "
-        "their cost.");
+        "Tries methods and dt on the next second of this motion, and ranks by cost those that keep within this error.");
   if (ui.session.simulation->divergence() && !watch.search())
     return finder_text(ui, "The motion has diverged; restart it first.");
   const auto search = watch.search();
-  if (!search) return finder_text(ui, "The search begins once you let go of the cloth and its present step is done.");
+  if (!search) return finder_text(ui, "The search begins once you release the cloth and the present step is done.");
   finder_answer(ui, *search, *watch.tolerance());
 }
 
@@ -254,8 +253,8 @@ std::optional<double> target_error(const Ui& ui) {
 std::string finder_words(const SettingsSearch& search, double tolerance, const Preset& now, bool stopped) {
   if (!search.done) {
     if (search.methods == 0)
-      return stopped ? "Stopped before any method was tried. Find begins again from nothing."
-                     : "First fine runs to compare with, from t = " + short_number(search.t) +
+      return stopped ? "Stopped before any method was tried. Find starts over."
+                     : "First come fine runs for comparison, from t = " + short_number(search.t) +
                            " s: " + std::to_string(int(100 * search.reference_part)) + " % done.";
     const std::string tried = std::to_string(search.methods_done) + " of " + std::to_string(search.methods);
     const std::string settings = std::to_string(search.points.size()) + " settings tried.";
@@ -268,8 +267,7 @@ std::string finder_words(const SettingsSearch& search, double tolerance, const P
   if (search.seconds < 0.99 * search.goal.seconds)
     words +=
         " The time is this short because fine runs of a whole second of this cloth would take too long, and no contact "
-        "or tear "
-        "follows in the rest of it.";
+        "or tear follows in the rest of that second.";
   if (search.present && std::isfinite(search.present->error_rms_m))
     words += (same_settings(search.of, now) ? " Now" : " Before, with " + setting_words(search.of)) + ": error " +
              quantity(search.present->error_rms_m, "m", 2) + ", " + quantity(search.present->cost, "s", 2) +

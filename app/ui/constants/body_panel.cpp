@@ -97,8 +97,8 @@ void tool_rows(Ui& ui) {
     const int now = handling.cut_along_path ? 1 : 0;
     if (const int k = segments(ui, "cut", ways, 2, now); k >= 0 && k != now) ui.command("toggle_cut_path");
     tooltip(ui, gui::item_id(),
-            "What a left drag cuts: the springs above each particle near it, or every spring "
-            "and edge of a triangle that it crosses, through all layers.",
+            "Choose what a left drag cuts: the springs above each particle near its path, or every spring and triangle "
+            "edge that it crosses, through all layers.",
             ui.keys_of("toggle_cut_path"));
   });
   labeled_row(ui, "hand", [&](float) {

@@ -210,9 +210,9 @@ void step_limit_row(Ui& ui) {
     const bool open = begin_combo(ui, "##step_limit", words(1000 * limit).c_str(), width);
     if (!open) {
       tooltip(ui, gui::item_id(),
-              "How long a step may take. It then ends with what the method has found, and how far that is from a "
-              "solution is told. The motion depends on the machine then, so presets do not keep this, and the cards "
-              "that measure the method leave it out.");
+              "Longest real time of a step. At this limit a step keeps its current result, and a message reports the "
+              "residual. The motion then depends on the machine, so presets do not store the limit, and the cards that "
+              "measure the method ignore it.");
       return;
     }
     for (const int ms : limits) {

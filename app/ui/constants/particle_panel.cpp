@@ -78,11 +78,15 @@ float line_height(const Ui& ui) {
 
 constexpr float unit_at_1 = 24;  // of "mN", px at scale 1
 
-/// A number of a table whose unit suits its largest: three digits of that one, and two of what is far smaller.
+/// A number of a table whose unit suits its largest: three digits of that one, three decimals of what is far smaller.
 std::string in_table(double value) {
   const double size = std::abs(value);
-  if (size != 0 && size < 5e-4) return power_number(value, 2);
-  return size < 0.0995 ? short_number(rounded(value, 2)) : steady_number(value);
+  if (size >= 99999.5) return power_number(value, 1);
+  const bool fixed = (size > 0 && size < 0.0995) || size >= 999.5;
+  if (!fixed) return steady_number(value);
+  char text[16];
+  std::snprintf(text, sizeof text, "%.*f", size < 1 ? 3 : 0, value);
+  return text;
 }
 
 /// Where numbers end, from the left of the panel: one grid for forces (two to a line) and motion (three to a line).
@@ -92,9 +96,9 @@ struct Grid {
 };
 
 Grid grid(const Ui& ui) {
-  const float newton = ui.theme.px(unit_at_1), gap = ui.theme.px(8);
-  const float last = ui.row_width - ui.theme.px(34), first = std::floor((last - newton - gap) / 2);
-  return {first, std::floor((first + last) / 2), last, first + newton + gap};
+  const float gap = ui.theme.px(8);
+  const float last = ui.row_width - ui.theme.px(34), first = std::floor((last - gap) / 2);
+  return {first, std::floor((first + last) / 2), last, first + gap};
 }
 
 /// After the symbol of what lacks the contact: refers to the note beside F.
@@ -152,7 +156,8 @@ void tick_and_sample(Ui& ui, std::string_view key, float left, float middle) {
 /// A variable's symbol with the sample of its curve, its numbers, its unit. The numbers end at those distances from the
 /// left edge, the unit follows the last.
 void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float width,
-                   std::span<const double> numbers, std::span<const float> ends, const ScaledUnit& unit) {
+                   std::span<const double> numbers, std::span<const float> ends, const ScaledUnit& unit,
+                   bool with_unit = true) {
   const Tokens& c = ui.theme.colors;
   const Variable& what = variable(key);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -173,13 +178,16 @@ void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout,
     const std::string text = readout != nullptr ? in_table(numbers[k] / unit.size) : "–";
     draw_on_baseline(draw, mono, {lo.x + ends[k] - text_width(mono, text), baseline}, c.text, text);
   }
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ends.back() + ui.theme.px(5), baseline}, c.quiet, unit.name);
+  if (with_unit)
+    draw_on_baseline(draw, *ui.fonts.small, {lo.x + ends.back() + ui.theme.px(5), baseline}, c.quiet, unit.name);
 }
 
-/// Its magnitude ends `end` after the cell's left edge.
-void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end, const ScaledUnit& unit) {
+/// Its magnitude ends `end` after the cell's left edge. The unit, which all forces share, stands once a line.
+void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end, const ScaledUnit& unit,
+                bool last_in_line) {
   const double magnitude = glm::length(value_of(ui, readout, key));
-  variable_cell(ui, key, readout, end + ui.theme.px(unit_at_1), {&magnitude, 1}, {&end, 1}, unit);
+  const float width = last_in_line ? end + ui.theme.px(unit_at_1) : end;
+  variable_cell(ui, key, readout, width, {&magnitude, 1}, {&end, 1}, unit, last_in_line);
 }
 
 /// Three components.
@@ -235,7 +243,8 @@ void particle_panel(Ui& ui) {
     const bool right = k % 2 == 1;
     if (right)
       ImGui::SameLine(0, 0), ImGui::SetCursorScreenPos({lo.x + columns.second_start, ImGui::GetCursorScreenPos().y});
-    force_cell(ui, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end, newtons);
+    force_cell(ui, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end, newtons,
+               right || k + 1 == forces.size());
   }
   // F stands alone on the last line of the forces.
   if (lacks_contact(shown, "F")) contact_note(ui, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});

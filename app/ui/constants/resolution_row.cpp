@@ -60,13 +60,13 @@ void question_part(Ui& ui, const ResolutionQuestion& question) {
     const std::string result = count_of(*same) + ", " + size_of(now) + " as now; L = " + quantity(same->L, "m", 3) +
                                ", dt = " + quantity(same->dt, "s", 3);
     if (answer(ui, grows ? "Same size, finer" : "Same size, coarser", result, true)) answer_later(ui, true);
-    tooltip(ui, gui::item_id(), "The same cloth of other springs: mass and stretch behavior stay", "Enter");
+    tooltip(ui, gui::item_id(), "This cloth with other springs: mass and stretch behavior stay", "Enter");
   }
   const std::string result = count_of(more) + ", " + size_of(more) + "; L, m and dt stay";
   if (answer(ui, grows ? "More cloth" : "Less cloth", result, !question.same_size)) answer_later(ui, false);
   tooltip(ui, gui::item_id(),
-          grows ? "More of the same springs and weights: a larger cloth"
-                : "Fewer of the same springs and weights: a smaller cloth",
+          grows ? "More springs and particles of this kind: a larger cloth"
+                : "Fewer springs and particles of this kind: a smaller cloth",
           "Shift+Enter");
   if (text_button(ui, ("Keep " + count_of(now)).c_str())) return ui.asked_lattice.reset();
   tooltip(ui, gui::item_id(), "Nothing changes", "Esc");
@@ -98,8 +98,8 @@ void answer_resolution(Ui& ui, bool same_size) {
 
 void resolution_row(Ui& ui) {
   static constexpr const char* tip =
-      "Makes the lattice finer or coarser and keeps the size, mass and stretch behavior: R−1 and C−1 times q, "
-      "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
+      "Makes the lattice finer or coarser and keeps the size, mass and stretch behavior: R−1 and C−1 times q, L/q, "
+      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding decreases as the cloth gets finer, since k_b stays. "
       "Tears are repaired.";
   const auto scale = [&](double q) { ui.session.propose(with_resolution(ui.session.requested_preset(), q)); };
   labeled_row(ui, "divide", [&](float) {

@@ -101,8 +101,8 @@ void auto_toggle(Ui& ui, ImVec2 at, float width, float height) {
   report_control(ui, "auto");
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),
-          on ? "dt is chosen by the program: 0.8 of the worst-case limit, less if the ledger finds that the method "
-               "adds energy. Click to keep the present dt."
+          on ? "The program chooses dt: 0.8 of the worst-case limit, less if the ledger finds that the method adds "
+               "energy. Click to keep the present dt."
              : "Let the program choose and adjust dt: 0.8 of the worst-case limit, less if the ledger finds that the "
                "method adds energy.");
   const float inset = std::round((height - ui.theme.px(20)) / 2);
@@ -148,7 +148,7 @@ std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
     marks.push_back({"this cloth", *own,
                      "Dot: this cloth's own limit " + when(limits) + ": " + seconds(*own) +
                          ", from its fastest mode, ω = " + power_number(rounded(limits.omega, 3)) +
-                         " 1/s. It changes with the shape and promises nothing: slack cloths without damping have "
+                         " 1/s. It changes with the shape and guarantees nothing: slack cloths without damping have "
                          "diverged at 63 % of it."});
   marks.push_back({"worst case", limits.any,
                    cloth ? "Line: the worst-case limit, " + seconds(limits.any) + ". Up to it, " + method +
@@ -157,21 +157,21 @@ std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
   if (cloth && std::isfinite(limits.every))
     marks.push_back({"every shape", limits.every,
                      "Hatched: above " + seconds(limits.every) + ", " + method +
-                         " is unstable in every shape in which a spring pulls. Between the line and here it depends "
-                         "on the shape."});
+                         " is unstable in every shape in which a spring pulls. Between the line and this value, "
+                         "stability depends on the shape."});
   marks.push_back({"dt", dt, "Bar: " + part_words(limits, dt)});
   return marks;
 }
 
 std::string stability_words(const StabilityLimits& limits, double dt) {
   if (chooses_steps(scheme(limits.of.integrator)))
-    return "This method chooses its own steps within dt, as short as stability and tolerance require.";
+    return "This method chooses inner steps within dt, as short as stability and tolerance require.";
   if (counts_passes(scheme(limits.of.integrator)))
-    return "Linear theory sets no largest dt for this method once its passes converge. Few passes may add energy; "
-           "bodies, and springs that switch, may too.";
+    return "Linear theory sets no largest dt for this method once its passes converge. Few passes may add energy, and "
+           "so may bodies and springs that switch.";
   if (std::isinf(limits.any))
-    return "Linear theory sets no largest dt for this method. Bodies, and springs that switch, still can.";
-  if (limits.any == 0) return "No dt is stable: without more damping this method feeds energy into every oscillation.";
+    return "Linear theory sets no largest dt for this method, but bodies and springs that switch may.";
+  if (limits.any == 0) return "No dt is stable: without more damping, this method adds energy to every oscillation.";
   const std::string name(zone_name(zone_at(limits, dt), limits.of.kind));
   std::string text = char(name.front() - 'a' + 'A') + name.substr(1) + ": " + part_words(limits, dt);
   for (const GaugeMark& mark : gauge_marks(limits, dt))

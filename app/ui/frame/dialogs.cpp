@@ -177,7 +177,7 @@ void save_preset_dialog(Ui& ui) {
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".json";
   if (is_shipped(file)) {
-    refuse(dialog, "That preset is part of the program itself; save under another name or in another folder.");
+    refuse(dialog, "That preset is part of the program; save under another name or in another folder.");
     dialog.overwrite = false;
     return;
   }

@@ -31,7 +31,7 @@ void undo_and_restart(Ui& ui) {
 std::string nothing_changed(const Ui& ui) {
   // In a lab, and after it, there is something to reset though no work could be lost.
   const bool differ = !changes(ui.session.document.saved, ui.session.requested_preset()).within(Effect::view);
-  return differ ? "" : "The constants already are those of the preset.";
+  return differ ? "" : "The constants already match the preset.";
 }
 
 void reset_constants(Ui& ui) {

@@ -142,14 +142,14 @@ std::vector<CommandRow> export_rows() {
        "One row per measured cell: stiffness, dt, the short run's result, the worst-case limit of dt.", "map.csv",
        text_file<map>});
   add("export_map_picture", "Export map as PNG…", "stability picture image",
-      {"Export map of stiffness and dt as PNG", "An image of the map as far as it has been measured.", "map.png",
+      {"Export map of stiffness and dt as PNG", "An image of the map with the cells measured so far.", "map.png",
        map_picture});
   add("export_copies", "Export distances of the copies as CSV…", "write lockstep",
       {"Export the copies' plot as CSV", rows_of_samples, "copies.csv", text_file<copies>}, export_no_copies);
   add("export_values", "Export every particle's values as CSV…", "write tension strain speed energy",
       {"Export every particle's values as CSV",
-       "One row per particle as it is now, one column for each quantity that can color the cloth.", "values.csv",
-       text_file<values>},
+       "One row per particle in its present state, one column for each quantity that can color the cloth.",
+       "values.csv", text_file<values>},
       export_no_cloth);
   rows.push_back({"export_film",
                   "Export film…",
@@ -167,8 +167,8 @@ std::vector<CommandRow> export_rows() {
                         no_mesh);
   obj.keys = "Ctrl+E", obj.chords = {{GLFW_KEY_E, ctrl}}, obj.help = "exports the cloth as a mesh";
   add("export_state", "Export state as CSV…", "write every particle's position velocity coordinates",
-      {"Export state as CSV", "One row per particle as it is now: x and ẋ, with all significant digits.", "state.csv",
-       text_file<state>});
+      {"Export state as CSV", "One row per particle in its present state: x and ẋ, with all significant digits.",
+       "state.csv", text_file<state>});
   add("export_convergence", "Export convergence as CSV…", "write accuracy order",
       {"Export convergence as CSV", "One row per dt, units in the header.", "convergence.csv", text_file<convergence>},
       no_convergence);

@@ -53,7 +53,7 @@ std::string link_address(const Ui& ui) {
 void note_copied(Ui& ui, std::string what) {
   if (!clipboard_took()) return;
   const std::string& texture = ui.session.requested_preset().texture;
-  if (!texture.empty() && !is_shipped_texture(texture)) what += " Its own texture is not in it.";
+  if (!texture.empty() && !is_shipped_texture(texture)) what += " The link does not contain the preset's own texture.";
   ui.messages.note(std::move(what));
 }
 

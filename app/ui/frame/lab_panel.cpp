@@ -1,5 +1,5 @@
-// The current lab, in a column beside the cloth or, in a window that is narrower, in a strip below it: what to read, to
-// predict and to do, what is checked and why. Nothing scrolls: what has no room stands on further pages.
+// The current lab, in a column beside the cloth or, in a narrower window, in a strip below it: text, prediction, task,
+// checks and explanation. Nothing scrolls; text that does not fit continues on further pages.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -345,8 +345,8 @@ void doing_part(Ui& ui, Pages& pages, const LabRun& run, bool turn) {
   if (cannot_be_done(ui.session))
     return marked_line(ui, pages, icon::warning, "!", c.warning,
                        first
-                           ? "This machine has no OpenCL device, so there is nothing to do here; predict, and read on."
-                           : "This machine has no OpenCL device, so there is nothing to do here; read on.",
+                           ? "This machine has no OpenCL device, so there is nothing to do here: predict, and read on."
+                           : "This machine has no OpenCL device, so there is nothing to do here: read on.",
                        c.text);
   if (first) return set_text(ui, pages, "Predict first; then the task appears here.", c.quiet);
   if (!record.done) task_part(ui, pages, step, turn);
@@ -405,7 +405,7 @@ void forward_button(Ui& ui, LabRun& run, bool can) {
     tooltip(ui, gui::item_id(),
             std::string(run.to_be_predicted() ? "Once the prediction is made and the checks hold; "
                                               : "Once the checks hold; ") +
-                (last ? "× leaves the lab before that, and keeps your progress" : "Skip goes on without that"));
+                (last ? "× leaves the lab before that, and keeps your progress" : "Skip continues without that"));
   if (go) last ? ui.command("leave_lab") : enter_step(ui.session, run.step + 1);
 }
 

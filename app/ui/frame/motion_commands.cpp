@@ -18,7 +18,7 @@ std::string waits_for_prediction(const Ui& ui) {
 std::string nothing_moves(const Ui& ui) {
   if (std::string waits = waits_for_prediction(ui); !waits.empty()) return waits;
   if (!ui.session.simulation->divergence() || ui.session.copies.lockstep.alive()) return "";
-  return "The simulation has diverged: restart it (R), rewind it (←), or choose a way out in the banner.";
+  return "The simulation has diverged: restart it (R), rewind it (←), or choose a remedy in the banner.";
 }
 
 void step_once(Ui& ui) {

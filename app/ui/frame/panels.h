@@ -1,4 +1,4 @@
-// The bars, everything that lies above the window, and the division of the window between all regions.
+// The bars, dialogs and overlays on top of the panels, and the division of the window into regions.
 #pragma once
 
 #include <imgui.h>

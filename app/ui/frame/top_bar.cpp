@@ -49,7 +49,7 @@ float menu_button(Ui& ui, float x) {
   const bool open = ImGui::IsPopupOpen("application");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (open || ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + width, y + height}, c.field, ui.theme.px(5));
-  tooltip(ui, gui::item_id(), "Everything that can be done", ui.keys_of("open_palette"));
+  tooltip(ui, gui::item_id(), "All commands", ui.keys_of("open_palette"));
   draw_text(draw, *ui.fonts.text, {x + ui.theme.px(10), std::round(y + (height - ui.fonts.text->FontSize) / 2)}, c.text,
             "Menu");
   const float tip = x + width - ui.theme.px(13), middle = y + height / 2, r = ui.theme.px(3.5f);
@@ -173,8 +173,8 @@ void readings(Ui& ui, float x, float end) {
   if (const std::string step = step_under_way(ui.session); !step.empty()) {
     const std::string label = "step " + std::to_string(ui.session.simulation->steps() + 1);
     reading(ui, x, end, label.c_str(), step, "100 %, 00.0 s", c.warning,
-            "This step takes longer than a frame: how much of it is done, as far as the method can tell, and the time "
-            "that it has taken. A change to the cloth stops it and starts it again; a change of view does not.");
+            "This step takes longer than a frame: its estimated progress, and its time so far. A change to the cloth "
+            "restarts the step; a change of view does not.");
     return;
   }
   const RealTime real = real_time(ui);
@@ -192,8 +192,8 @@ float buttons_width(const Ui& ui, int count) {
 
 void window_buttons(Ui& ui, float x, int count) {
   ImGui::SetCursorScreenPos({x, bar_middle(ui, ui.theme.px(32))});
-  if (icon_button(
-          ui, {"labs", icon::labs, "Labs", "Labs: predict, try it, check", "Ctrl+L", ui.session.labs.run.has_value()}))
+  if (icon_button(ui,
+                  {"labs", icon::labs, "Labs", "Labs: predict, try, check", "Ctrl+L", ui.session.labs.run.has_value()}))
     ui.command("choose_lab");
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   ui.tour.labs = {{lo.x, lo.y}, {hi.x, hi.y}};

@@ -37,26 +37,26 @@ Tour::Place labs_place(const Ui& ui) {
 
 constexpr std::array<Stop, 5> stops{
     {{"Grab the cloth",
-      "Drag with the right button: the particle under the pointer follows your hand. Drag with the left button: the "
-      "cloth is cut. Ctrl and the left button orbit the view, the wheel zooms.",
+      "Drag with the right button: the particle under the pointer follows your hand. Drag with the left button to cut "
+      "the cloth. Ctrl and the left button orbit the view, and the wheel zooms.",
       cloth_place},
      {"The constants",
-      "Every constant of the model has a slider; double-click its number to type one. The strip under a slider says "
-      "where the chosen method is stable in any shape of the cloth (green), where that depends on the shape (amber, "
-      "dashed), and where it is unstable in every shape (red, hatched).",
+      "Every constant of the model has a slider; double-click its number to type one. The strip under a slider shows "
+      "where the chosen method is stable in any shape of the cloth (green), where stability depends on the shape "
+      "(amber, dashed), and where the method is unstable in every shape (red, hatched).",
       constants_place},
      {"Run, step, restart",
-      "Space runs and pauses. → makes one step of dt, R restarts with the constants as they are. When a motion "
+      "Space runs and pauses. → makes one step of dt, and R restarts with the present constants. When a motion "
       "explodes, a banner says why and what to do.",
       transport_place},
      {"What happens inside",
-      "The forces on the picked particle, as curves; a right click picks another one. Below are cards for copies "
-      "with other settings, stability, accuracy, energy and cost: a click on a heading opens one. M maps which k_s and "
-      "dt are stable, I shows a step in formulas.",
+      "Curves show the forces on the picked particle; a right click picks another one. Below are cards for copies with "
+      "other settings, stability, accuracy, energy and cost; click a heading to open one. M maps the stable values of "
+      "k_s and dt, and I shows a step in formulas.",
       plots_place},
      {"Labs",
-      "A lab asks you to predict, lets you try, and checks the result. Begin with Hooke's law. Ctrl+P finds "
-      "everything by name, and F1 lists the keys and opens this tour again.",
+      "A lab asks you to predict, lets you experiment, and checks the result. Begin with Hooke's law. Ctrl+P finds "
+      "everything by name, and F1 lists the keys and restarts this tour.",
       labs_place}}};
 
 bool visible(const Tour::Place& place) {

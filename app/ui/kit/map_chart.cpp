@@ -66,8 +66,8 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
   chart.series.push_back({"", {c.ground, LineStyle::solid, 1}, false, 8, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
-  chart.series.push_back(key("energy error 1e-6", color_of_share(c, 1e-6)));
-  chart.series.push_back(key("error 1e-3", color_of_share(c, 1e-3)));
+  chart.series.push_back(key("energy error 10⁻⁶", color_of_share(c, 1e-6)));
+  chart.series.push_back(key("error 10⁻³", color_of_share(c, 1e-3)));
   chart.series.push_back(key("error 1", color_of_share(c, 1)));
   return chart;
 }

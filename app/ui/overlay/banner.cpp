@@ -68,7 +68,7 @@ std::string fix_label(const Preset& now, const Preset& fixed) {
 
 /// Why, and what to do about it: the advice holds for the constants that diverged, and goes with them.
 std::string why_and_what_now(const Ui& ui, const Divergence& d) {
-  const char* changed = "Constants have changed since then: restart to see what they do.";
+  const char* changed = "Constants have changed since then: restart to see their effect.";
   return sentence(d.cause) + " " + (changed_since_divergence(ui.session) ? changed : sentence(d.advice));
 }
 
@@ -80,7 +80,7 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
     ways.push_back({label, from + with, "", [preset](Ui& u) { u.session.request(request::Retry{preset}); }});
   };
   if (advice.suggested_fix && advice.suggested_fix->integrator != now.integrator)
-    retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what linear theory advises");
+    retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "the settings that linear theory advises");
   if (advice.slower)
     retry("dt = " + quantity(advice.slower->dt, "s"), *advice.slower,
           "dt at 0.9 of the worst-case limit of this method");
@@ -105,10 +105,9 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   if (advice.undo_helps)
     ways.push_back(
         {undo_label(*advice.before, ui.session.preset()),
-         "Takes the last change back (" + change_in_words(*advice.before, ui.session.preset()) + ") and restarts",
+         "Undoes the last change (" + change_in_words(*advice.before, ui.session.preset()) + ") and restarts",
          "Ctrl+Z, then R", [](Ui& u) { u.command("undo_and_restart"); }});
-  const Way restart{"Restart", "From the start, with the constants as they are", "R",
-                    [](Ui& u) { u.command("restart"); }};
+  const Way restart{"Restart", "From the start, with the present constants", "R", [](Ui& u) { u.command("restart"); }};
   const bool past = ui.session.rewind.before(*ui.session.simulation, ui.session.simulation->time(), 1) != nullptr;
   const Way rewind{"Rewind 1 s", "One second back, paused", "←", [](Ui& u) { u.command("rewind"); }};
   const bool changed = changed_since_divergence(ui.session);
@@ -122,9 +121,9 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   if ((again || doubtful) && !advice.springs_too_weak) add_retries(ui, advice, past, ways);
   if (nothing_to_replay(ui.session).empty())
     ways.push_back({replay_label,
-                    std::string("At most the last 50 steps in a few seconds, colored by strain; what diverges first is "
-                                "ringed") +
-                        (changed ? ". Sets the constants back to those that diverged" : ""),
+                    std::string("At most the last 50 steps in a few seconds, colored by strain, with a ring around the "
+                                "place that diverges first") +
+                        (changed ? ". Restores the constants that diverged" : ""),
                     "", [](Ui& u) { u.command("replay"); }});
   if (past) ways.push_back(rewind);
   if (again) ways.push_back(restart);
@@ -181,7 +180,7 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   std::vector<Way> shown{ways.front()};
   for (std::size_t k = 1; k < ways.size(); ++k)
     if (ways[k].label == replay_label) shown.push_back(ways[k]);
-  shown.push_back({"Details", "What happened, why, and every way out", "", [](Ui& u) { u.banner_whole = true; }});
+  shown.push_back({"Details", "What happened, why, and all remedies", "", [](Ui& u) { u.banner_whole = true; }});
   const float room = most - 2 * padding;
   if (!high && shown.size() > 2 && buttons_width(ui, shown) > room) shown.erase(shown.begin());
   const float buttons = std::min(buttons_width(ui, shown), room);

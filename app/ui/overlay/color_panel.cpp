@@ -34,7 +34,7 @@ void scale_grip(Ui& ui, FieldColors& colors, const LegendParts& parts) {
       ui, gui::item_id(),
       std::string("Drag to move the end of the scale: the length of the colors is a factor of 10. Double-click for "
                   "an automatic scale.") +
-          (root ? " The colors follow the square root of the tension, so that more than the corners is seen." : ""));
+          (root ? " The colors follow the square root of the tension, so that more than the corners is visible." : ""));
   if (ImGui::IsItemActive() && ui.input.double_click) {
     colors.fixed.reset();
   } else if (const float moved = ImGui::GetIO().MouseDelta.x; ImGui::IsItemActive() && moved != 0) {
@@ -51,7 +51,7 @@ void top_cell(Ui& ui, FieldColors& colors, ImVec2 right_end) {
   const float width = ui.theme.px(70), height = ui.theme.px(18);
   ImGui::SetCursorScreenPos({right_end.x + ui.theme.px(4) - width, std::round(right_end.y - height / 2)});
   const SliderResult typed = value_cell(ui, "colour top", colors.top(), short_number(rounded(colors.top(), 3)), width,
-                                        height, "the scale's end", field.unit);
+                                        height, "the end of the scale", field.unit);
   report_control(ui, "colour_top");
   tooltip(ui, gui::item_id(),
           colors.fixed ? "The scale ends at this value. Double-click the colors for an automatic scale."
@@ -105,7 +105,7 @@ void color_menu(Ui& ui, float width) {
       choice(ui, field.field, std::string(field.title).c_str(), std::string(field.help).c_str());
     end_combo();
   } else {
-    tooltip(ui, gui::item_id(), "What colors the cloth", ui.keys_of("next_color"));
+    tooltip(ui, gui::item_id(), "The quantity that colors the cloth", ui.keys_of("next_color"));
   }
 }
 

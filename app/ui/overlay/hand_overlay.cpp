@@ -99,7 +99,7 @@ void first_cut_hint(Ui& ui, ImDrawList& draw) {
   ui.draw_by = std::min(ui.draw_by, ui.cut_hint->until);
   const ImFont& font = *ui.fonts.text;
   const char* const words =
-      ui.input.by_touch ? "You cut the cloth. Undo takes it back." : "Right drag pulls. Ctrl+Z undoes the cut.";
+      ui.input.by_touch ? "You cut the cloth. Undo reverts the cut." : "Right drag pulls. Ctrl+Z undoes the cut.";
   const float pad = ui.theme.px(10);
   const auto box = place_of_label(ui, ui.cut_hint->at,
                                   glm::ceil(glm::vec2(text_width(font, words) + 2 * pad, font.FontSize + 1.4f * pad)));

@@ -2,7 +2,7 @@
 // (e_i - e_j)(e_i - e_j)ᵀ, for each of x, y and z, with 0 for pinned and held particles. The Chebyshev iteration solves
 // them. It needs only bounds of the eigenvalues, so the bits of a solution are identical for any number of threads.
 // Where its products do not suffice, the mean of each piece of the lattice that nothing holds is solved for exactly: A
-// leaves it as it is, since it stretches no spring.
+// does not change it, since it stretches no spring.
 #pragma once
 
 #include <cstddef>

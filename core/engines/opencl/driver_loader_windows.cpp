@@ -12,7 +12,7 @@ bool driver_loader_is_there() {
 }
 
 std::string_view how_to_get_a_device() {
-  return "The driver of a graphics card brings one.";
+  return "The driver of a graphics card provides a device.";
 }
 
 std::string_view how_to_mend_a_driver() {

@@ -408,9 +408,9 @@ void OpenClEngine<R>::accept_changes(const Tears& tears) {
 
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {
   const Scheme& method = scheme(preset.integrator);
-  const char* why = projects(method)         ? "moves particles one after the other"
-                    : solves_damping(method) ? "solves for the damping"
-                    : counts_passes(method)  ? "solves in passes of its own"
+  const char* why = projects(method)         ? "moves particles one by one"
+                    : solves_damping(method) ? "solves equations for the damping"
+                    : counts_passes(method)  ? "makes a fixed number of passes"
                                              : "chooses its own steps";
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +

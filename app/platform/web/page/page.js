@@ -34,8 +34,9 @@ function check_browser() {
     throw new Refusal('Tyglab needs WebAssembly with SIMD, which this browser lacks. Use a current Firefox, Chrome, Edge or ' +
                       'Safari.');
   if (!document.createElement('canvas').getContext('webgl2'))
-    throw new Refusal('Tyglab needs WebGL 2, which this browser lacks or has switched off. Allow hardware acceleration in its ' +
-                      'settings, or use a current Firefox, Chrome, Edge or Safari.');
+    throw new Refusal(
+        'Tyglab needs WebGL 2, which this browser lacks or has disabled. Enable hardware acceleration in its ' +
+        'settings, or use a current Firefox, Chrome, Edge or Safari.');
 }
 
 let loaded = 0;
@@ -81,7 +82,7 @@ function restore(tyglab) {
     for (const [key, text] of Object.entries(localStorage))
       if (key.startsWith('tyglab:/')) write(tyglab, key.slice('tyglab:'.length), text);
   } catch (error) {
-    console.warn('Tyglab: nothing can be kept from one visit to the next: ' + error.message);
+    console.warn('Tyglab: settings cannot be stored: ' + error.message);
   }
 }
 
@@ -149,7 +150,8 @@ async function load_the_rest(tyglab) {
     tyglab.tyglabPage.withText(name, tyglab._tyglab_on_drop);
   }
   if ('serviceWorker' in navigator && !embedded)
-    navigator.serviceWorker.register('offline.js?program=' + program).catch((error) => console.warn('Tyglab: not offline: ' + error.message));
+    navigator.serviceWorker.register('offline.js?program=' + program)
+        .catch((error) => console.warn('Tyglab: the page will not work offline: ' + error.message));
 }
 
 /// How many the program may start: for its team on up to four processors (core/analysis/machine_web.cpp), for those of
@@ -174,7 +176,7 @@ function follow_reload() {
     sessionStorage.removeItem('tyglab:address');
     if (!embedded && left && performance.getEntriesByType('navigation')[0]?.type === 'reload') history.replaceState(null, '', left);
   } catch (error) {
-    console.warn('Tyglab: this tab keeps nothing: ' + error.message);
+    console.warn('Tyglab: this tab cannot store its address: ' + error.message);
   }
 }
 
@@ -201,8 +203,9 @@ async function start() {
     print: (text) => console.log(text),
     printErr: (text) => { said += text + '\n'; console.log(text); },
     showText: show_text,
-    lost: () => end('The browser has taken the graphics away from this page, as it does when the driver restarts or too many pages ' +
-                    'draw. Try again: the address holds your constants.'),
+    lost: () => end(
+        'The browser has withdrawn graphics from this page, as happens when the driver restarts or too many pages ' +
+        'draw. Try again: the address contains your constants.'),
     firstFrame: () => {
       document.getElementById('start').classList.add('gone');
       performance.mark('tyglab first frame');

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/engines/cpu/register_limit.cpp"
+#define HWY_TARGET_INCLUDE "tests/bench/register_limit.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -8,9 +8,9 @@
 #include <chrono>
 #include <limits>
 
-#include "core/engines/cpu/row_update.h"
 #include "core/forces/spring-inl.h"
 #include "core/simd/simd-inl.h"
+#include "tests/bench/throughput.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
