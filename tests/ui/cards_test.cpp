@@ -75,6 +75,7 @@ TEST_CASE("the card keeps the ledger while it is open: energy moves from height 
   CHECK(window.sees("plots.energy_plot"));
   window.type_value("k_s", "90");
   window.until([&] { return window.cloth().ledger()->works.edits != 0; }, "the edit to be told");
+  window.find("energy card");  // its heading comes back into sight
   window.click("plots.Energy");
   CHECK_FALSE(window.cloth().ledger().has_value());
 }
@@ -337,6 +338,30 @@ TEST_CASE("the Energy card has the textbook's names, and says what a whole bar s
   window.frames(3);
   for (const char* name : {"kinetic", "elastic, stretch", "gravitational potential", "total"}) CHECK(window.drew(name));
   CHECK(window.drew("full scale 0.2 J"));  // ½ k x²
+}
+
+/// Whether the last frame drew anything in that color.
+bool drew_color(ImU32 color) {
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int n = 0; n < data.CmdListsCount; ++n)
+    for (const ImDrawVert& corner : data.CmdLists[n]->VtxBuffer)
+      if (corner.col == color) return true;
+  return false;
+}
+
+TEST_CASE("the Energy card has bars in a narrow column too") {
+  for (const char* theme : {"dark", "light", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window({.settings = [=](Settings& settings) { settings.theme = theme; }});
+    const ImU32 bar = faded(window.ui.theme.colors.accent, 0.8f);
+    window.frames(20);
+    CHECK_FALSE(drew_color(bar));
+    window.find("energy card");
+    window.frames(4);
+    CHECK(drew_color(bar));
+    CHECK(window.drew("full scale"));
+    for (const std::string& text : window.cut_texts()) CHECK_FALSE(text.starts_with("plots"));
+  }
 }
 
 TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {

@@ -79,7 +79,7 @@ TEST_CASE("presentation mode names its scene, and its texts have room" * doctest
   });
 }
 
-TEST_CASE("every step of every lab has its texts whole" * doctest::may_fail() * doctest::test_suite("slow")) {
+TEST_CASE("every step of every lab has its texts whole" * doctest::test_suite("slow")) {
   in_each_layout("hanging", [](test::NullUi& window) {
     std::vector<std::string> labs;
     for (const Lab& lab : find_labs(window.session)) labs.push_back(lab.label);

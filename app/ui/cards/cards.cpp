@@ -22,14 +22,18 @@ void show_card(Ui& ui, std::string_view name) {
   ui.plots.wanted = name;
 }
 
-void show_for_lab(Ui& ui, std::string_view name) {
+const char* card_of_lab(std::string_view name) {
   constexpr std::array names{card_name::forces,   card_name::height, card_name::stability,
                              card_name::accuracy, card_name::energy, card_name::performance,
                              card_name::copies,   card_name::map,    card_name::step};
   static_assert(names.size() == lab_cards.size());
   const auto found = std::find(lab_cards.begin(), lab_cards.end(), name);
-  if (found == lab_cards.end()) return;
-  const char* const card = names[std::size_t(found - lab_cards.begin())];
+  return found == lab_cards.end() ? nullptr : names[std::size_t(found - lab_cards.begin())];
+}
+
+void show_for_lab(Ui& ui, std::string_view name) {
+  const char* const card = card_of_lab(name);
+  if (card == nullptr) return;
   Layout& layout = ui.settings.layout;
   LabCards& opened = ui.lab_cards;
   const auto open = [](bool& shown, bool& by_lab) {

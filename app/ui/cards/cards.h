@@ -27,6 +27,8 @@ inline constexpr const char *height = "Height", *forces = "Forces", *distances =
 bool in_front(const Ui& ui, std::string_view name);
 /// Brings a card into sight: the column, its tab where it is one, what stands under its heading.
 void show_card(Ui& ui, std::string_view name);
+/// The card that a lab's step calls so (lab_cards); null: none.
+const char* card_of_lab(std::string_view name);
 /// What a lab's step shows, by its name in lab_cards; empty: nothing. In a narrow window the lab itself stays in sight:
 /// the card is the one that its column shows.
 void show_for_lab(Ui& ui, std::string_view name);

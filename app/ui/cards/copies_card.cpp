@@ -17,7 +17,7 @@ namespace {
 constexpr const char* heading = card_name::copies;
 constexpr float line_at_1 = 24, buttons_at_1 = 34, under_words_at_1 = 12;  // pixels at scale 1
 constexpr float cost_at_1 = 56, apart_at_1 = 84, remove_at_1 = 26;         // columns
-constexpr float costs_from_at_1 = 262;                                     // a narrower card leaves the costs out
+constexpr float beside_from_at_1 = 262;                                    // in a narrower card names stand above
 constexpr float menu_at_1 = 300;                                           // its greatest height
 constexpr const char* copies_explanation =
     "Copies run alongside this cloth with the same start, hand and wind, each with another method, dt or constant. "
@@ -25,15 +25,14 @@ constexpr const char* copies_explanation =
 constexpr const char* add_label = "Add a copy with…";
 constexpr std::array<const char*, 2> copies_ways{"Split view", "Overlaid"};
 
+/// Not where even below the names there is no room for them.
 bool costs_shown(const Ui& ui) {
-  return plot_card_inner_width(ui, ui.plots.width) >= ui.theme.px(costs_from_at_1);
+  return plot_card_inner_width(ui, ui.plots.width) >= ui.theme.px(cost_at_1 + apart_at_1 + remove_at_1);
 }
 
 /// Where names have no room beside the numbers they stand above them.
 bool names_above(const Ui& ui, float width) {
-  constexpr float least = 90;  // of a name, at scale 1
-  const float beside = plot_card_inner_width(ui, width) - ui.theme.px(remove_at_1 + apart_at_1 + 28);
-  return beside < ui.theme.px(least);
+  return plot_card_inner_width(ui, width) < ui.theme.px(beside_from_at_1);
 }
 float line_height_at_1(const Ui& ui, float width) {
   return names_above(ui, width) ? 2 * line_at_1 - 6 : line_at_1;

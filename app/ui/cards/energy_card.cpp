@@ -15,6 +15,8 @@ namespace {
 constexpr const char* energy_heading = card_name::energy;
 constexpr std::string_view height_row = "gravitational potential", total_row = "total";
 constexpr float gap_at_1 = 7, restart_at_1 = 36, curves_at_1 = 130;  // pixels at scale 1
+constexpr float bar_at_1 = 8, bar_below_at_1 = 4;                    // thickness, beside a name and below it
+constexpr float below_at_1 = 7;                                      // that a bar below a line adds to it
 
 ImU32 color_of(const Tokens& c, double share) {
   return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
@@ -34,22 +36,29 @@ void draw_bar(Ui& ui, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
   draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, ui.theme.colors.line);
 }
 
-/// Where the bars are, px from the left.
+/// Where the bars are, px from the left: between names and numbers or, in a narrow card, below them.
 struct BarColumn {
   float left, right;
-  bool any;  ///< there is room for them
+  bool below;
 };
 
 BarColumn bar_column(const Ui& ui, float width) {
   const float left = ui.theme.px(128), right = width - ui.theme.px(96);
-  return {left, right, left + ui.theme.px(24) < right};
+  if (left + ui.theme.px(24) >= right) return {0, width, true};
+  return {left, right, false};
+}
+
+/// Of a row with all that belongs to it, pixels at scale 1.
+float row_height_at_1(const EnergyRow& row, const BarColumn& bars) {
+  return card::line + (bars.below && from_zero(row) ? below_at_1 : 0);
 }
 
 void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double full, const ScaledUnit& unit,
                  float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = ui.theme.px(card::line), middle = std::round(lo.y + height / 2);
+  const BarColumn bars = bar_column(ui, width);
+  const float height = ui.theme.px(row_height_at_1(row, bars)), middle = std::round(lo.y + ui.theme.px(card::line) / 2);
   const float baseline = baseline_at(ui.fonts, middle);
   const bool unexplained = row.kind == EnergyKind::unexplained;
   const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
@@ -67,10 +76,11 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink,
                    unexplained && row.joule < 0 ? std::string_view("removed by the method") : row.name);
-  const float bar = ui.theme.px(4);
-  if (const BarColumn bars = bar_column(ui, width); from_zero(row) && bars.any)
-    draw_bar(ui, {lo.x + bars.left, middle - bar}, {lo.x + bars.right, middle + bar}, row.joule / full,
-             faded(color, 0.8f));
+  if (from_zero(row)) {
+    const float bar = ui.theme.px(bars.below ? bar_below_at_1 : bar_at_1),
+                top = bars.below ? std::round(lo.y + ui.theme.px(card::line)) : middle - bar / 2;
+    draw_bar(ui, {lo.x + bars.left, top}, {lo.x + bars.right, top + bar}, row.joule / full, faded(color, 0.8f));
+  }
   const double shown = unexplained ? std::abs(row.joule) : row.joule;
   const std::string text = unknown ? "–" : power_number(shown / unit.size, 3) + " " + unit.name;
   const ImFont& mono = *ui.fonts.mono;
@@ -87,12 +97,10 @@ double full_bar(double largest) {
 
 /// What a full bar stands for, above its end: half a bar is what is gained, half what is lost.
 void bar_scale(Ui& ui, double full, const ScaledUnit& unit, float width) {
-  const BarColumn bars = bar_column(ui, width);
-  if (!bars.any) return;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const std::string words = "full scale " + short_number(full / unit.size, 3) + " " + unit.name;
   const ImFont& small = *ui.fonts.small;
-  const float left = std::max(lo.x, lo.x + bars.right - text_width(small, words));
+  const float left = std::max(lo.x, lo.x + bar_column(ui, width).right - text_width(small, words));
   draw_on_baseline(*ImGui::GetWindowDrawList(), small,
                    {left, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)}, ui.theme.colors.quiet, words);
   ImGui::Dummy({width, ui.theme.px(card::line)});
@@ -161,8 +169,9 @@ std::string share_text(const LedgerReading& reading) {
 float energy_card_height(const Ui& ui, float width) {
   const auto ledger = ui.session.simulation->ledger();
   const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
-  const std::size_t lines = energy_rows({}).size() + (bar_column(ui, card_width(ui, width)).any ? 2 : 1);
-  return card_height(ui, energy_heading, float(lines) * card::line + 4 * gap_at_1 + curves_at_1 + button);
+  float rows = 2 * card::line;  // what a full bar stands for, and since when is counted
+  for (const EnergyRow& row : energy_rows({})) rows += row_height_at_1(row, bar_column(ui, card_width(ui, width)));
+  return card_height(ui, energy_heading, rows + 4 * gap_at_1 + curves_at_1 + button);
 }
 
 void energy_card(Ui& ui, float height) {

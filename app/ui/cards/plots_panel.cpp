@@ -184,6 +184,22 @@ void begin_scrolling(Ui& ui, const char* id, ImVec2 size, float content) {
   gui::begin_child(id, size);
 }
 
+/// Scrolls so that the first tool that is seen stays where it is, whatever opens or closes above it; what is to come
+/// into sight goes first.
+void keep_in_place(Ui& ui, std::span<const Card> tools, std::span<const float> heights) {
+  const auto before = std::exchange(ui.plots.anchor, std::nullopt);
+  const auto is_wanted = [&](const Card& card) { return card.name == ui.plots.wanted; };
+  const bool wanted = std::any_of(tools.begin(), tools.end(), is_wanted);
+  const float scroll = ImGui::GetScrollY();
+  float from = ImGui::GetCursorPosY();
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    if (!wanted && before && before->card == tools[k].name && before->from != from)
+      ImGui::SetScrollY(std::max(scroll + from - before->from, 0.f));
+    if (!ui.plots.anchor && from >= scroll) ui.plots.anchor = CardAnchor{tools[k].name, from};
+    from += heights[k] + ui.theme.px(margin_at_1);
+  }
+}
+
 /// Cards above each other; scrolls so that the one that is wanted is seen.
 void draw_stacked(Ui& ui, std::span<const Card> cards, std::span<const float> heights, float seen) {
   const float left = ImGui::GetCursorScreenPos().x;
@@ -251,6 +267,7 @@ void plots_panel(Ui& ui, const Region& region) {
     draw_plots(ui, plan, ImGui::GetContentRegionAvail().x);
     ui.wheel_scrolls = true;
     ImGui::SetCursorScreenPos({top.x, top.y + below});
+    keep_in_place(ui, plan.tools, plan.tool_heights);
     draw_stacked(ui, plan.tools, plan.tool_heights, column.y);
     ImGui::EndChild();
   } else {
@@ -258,6 +275,7 @@ void plots_panel(Ui& ui, const Region& region) {
     draw_plots(ui, plan, column.x);
     ImGui::SetCursorScreenPos({corner.x, corner.y + below});
     begin_scrolling(ui, "tools", {column.x, plan.tools_height}, total(ui, plan.tool_heights));
+    keep_in_place(ui, plan.tools, plan.tool_heights);
     draw_stacked(ui, plan.tools, plan.tool_heights, plan.tools_height);
     ImGui::EndChild();
   }
@@ -274,9 +292,13 @@ Wants plots_want(const Ui& ui, ImVec2 size, bool take_turns) {
   };
   const auto open = [&](const Card& card) { return ui.settings.layout.folded.count(card.name) == 0; };
   if (size.x <= 0) {
-    // Who pulls the cloth looks at its forces afterwards, in the same place.
+    if (!take_turns) return wants;
+    // Who pulls the cloth looks at its forces afterwards, in the same place; and who reads a lab, at what it shows.
     for (const Card& card : plot_cards(ui))
-      if (take_turns && open(card)) add(card);
+      if (open(card)) add(card);
+    const char* const of_lab = ui.session.labs.run ? card_of_lab(ui.session.labs.run->shown()) : nullptr;
+    for (const Card& card : tool_cards(ui))
+      if (card.name == of_lab && open(card)) add(card);
     return wants;
   }
   const ColumnPlan plan = plan_column(ui, column_size(ui, size));

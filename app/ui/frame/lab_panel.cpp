@@ -144,12 +144,21 @@ void take_prediction(Ui& ui, const Prediction& asked, const StepRecord& record) 
   predict(ui.session);
 }
 
-void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
+float button_width(const Ui& ui, const char* label) {
+  return text_width(*ui.fonts.text, label) + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+/// The field, its unit and the button in one row of that width, px.
+void number_field(Ui& ui, const Prediction& asked, StepRecord& record, float width) {
+  constexpr float least = 60, usual = 120;  // of the field, pixels at scale 1
   LabField& field = ui.lab_field;
   field.seen = true;
+  const float gap = ImGui::GetStyle().ItemSpacing.x,
+              unit = asked.unit.empty() ? 0 : text_width(*ui.fonts.text, asked.unit) + gap,
+              room = width - gap - unit - button_width(ui, "Predict");
   // It takes the keys in a frame after the one that asks for that.
   if (field.again) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(std::min(ui.theme.px(120), 0.4f * ImGui::GetContentRegionAvail().x));
+  ImGui::SetNextItemWidth(std::clamp(room, ui.theme.px(least), ui.theme.px(usual)));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
   ImGui::InputTextWithHint("##prediction", "your number", record.typed, sizeof record.typed,
                            field.again ? ImGuiInputTextFlags_AutoSelectAll : 0);
@@ -230,7 +239,7 @@ void prediction_part(Ui& ui, Pages& pages, const LabStep& step, StepRecord& reco
     marked_line(ui, pages, icon::warning, "!", c.warning,
                 "Constants were changed before the prediction, so it will not be counted.", c.text);
   if (!asked.choices.empty()) return choice_list(ui, pages, choices, record);
-  if (pages.block(ui.fonts.text->FontSize + ui.theme.px(14))) number_field(ui, asked, record);
+  if (pages.block(ui.fonts.text->FontSize + ui.theme.px(14))) number_field(ui, asked, record, pages.width());
 }
 
 /// " (4.2e-6 m after 1.7e-5 m)": what a check that is done has compared with the step before; nothing of others.
@@ -351,11 +360,22 @@ void explanation_part(Ui& ui, Pages& pages, LabRun& run) {
   paragraphs_of(ui, pages, run.now().explanation, ui.theme.colors.text);
 }
 
-/// What the step says, with its title where that has no other place.
-void step_parts(Ui& ui, Pages& pages, LabRun& run, bool titled) {
+/// "Step 1 of 3".
+std::string step_text(const LabRun& run) {
+  return "Step " + std::to_string(run.step + 1) + " of " + std::to_string(run.lab.steps.size());
+}
+
+/// What of a step's head stands over its pages.
+struct HeadParts {
+  bool place = true, title = true;
+};
+
+/// What the step says, with what its head has no room for.
+void step_parts(Ui& ui, Pages& pages, LabRun& run, HeadParts head) {
   const Tokens& c = ui.theme.colors;
   const StepRecord& record = run.record();
-  if (!titled) pages.text(run.now().title, c.text, *ui.fonts.title);
+  if (!head.place) pages.text(step_text(run), c.quiet, *ui.fonts.small);
+  if (!head.title) pages.text(run.now().title, c.text, *ui.fonts.title);
   if (run.step == 0 && !record.done) paragraphs_of(ui, pages, run.lab.summary, c.quiet);
   paragraphs_of(ui, pages, run.now().text, c.text);
   prediction_part(ui, pages, run.now(), run.record());
@@ -366,10 +386,6 @@ void step_parts(Ui& ui, Pages& pages, LabRun& run, bool titled) {
   doing_part(ui, pages, run, turn);
   if (waits) explanation_part(ui, pages, run);
   if (record.done && run.step + 1 == run.lab.steps.size()) back_button(ui, pages);
-}
-
-float button_width(const Ui& ui, const char* label) {
-  return text_width(*ui.fonts.text, label) + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
 float wider(const Ui& ui, const char* one, const char* other) {
@@ -451,8 +467,7 @@ void page_turner(Ui& ui, ImVec2 at) {
 
 /// "Step 1 of 3 · Hooke's law", as far as it has room.
 std::string place_text(const Ui& ui, const LabRun& run, float room) {
-  const std::string place = "Step " + std::to_string(run.step + 1) + " of " + std::to_string(run.lab.steps.size());
-  return fitted(*ui.fonts.small, place + " · " + run.lab.title, room);
+  return fitted(*ui.fonts.small, step_text(run) + " · " + run.lab.title, room);
 }
 
 /// The step's constants, in sight where the column of constants is not.
@@ -475,9 +490,9 @@ void leave_button(Ui& ui, ImVec2 at) {
   if (quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept")) ui.command("leave_lab");
 }
 
-void draw_step(Ui& ui, LabRun& run, const Region& area, int columns, bool titled) {
+void draw_step(Ui& ui, LabRun& run, const Region& area, int columns, HeadParts head) {
   Pages pages(ui, area, columns);
-  step_parts(ui, pages, run, titled);
+  step_parts(ui, pages, run, head);
   LabPages& seen = ui.lab_pages;
   if (std::exchange(seen.count, pages.count()) != seen.count) ui.draw_by = ui.now;
   seen.at = std::min(seen.at, seen.count - 1);
@@ -506,7 +521,7 @@ void lab_in_column(Ui& ui, LabRun& run, const Region& region, bool with_constant
     foot -= checked_rows(ui, {}, width, true) + ui.theme.px(6);
     checked_rows(ui, {left, foot}, width);
   }
-  draw_step(ui, run, {{left, y}, {width, std::max(foot - ui.theme.px(8) - y, 1.f)}}, 1, true);
+  draw_step(ui, run, {{left, y}, {width, std::max(foot - ui.theme.px(8) - y, 1.f)}}, 1, {});
 }
 
 /// Below the cloth: everything but the text stands in one row over it.
@@ -523,13 +538,14 @@ void lab_in_strip(Ui& ui, LabRun& run, const Region& region, bool with_constants
   step_buttons(ui, run, {end, top}, again);
   if (turner > 0) end -= 2 * gap + turner, page_turner(ui, {end, region.at.y + ui.theme.px(8)});
   end -= 2 * gap;
+  // The place among the steps goes first: the title may stand over the text.
   const float baseline = baseline_at(ui.fonts, top + ui.theme.px(15)),
-              title = text_width(*ui.fonts.title, run.now().title);
-  const bool titled = left + title <= end;
-  if (titled) draw_on_baseline(draw, *ui.fonts.title, {left, baseline}, c.text, run.now().title);
-  const float x = titled ? left + title + ui.theme.px(10) : left;
-  if (end - x > ui.theme.px(60))
-    draw_on_baseline(draw, *ui.fonts.small, {x, baseline}, c.quiet, place_text(ui, run, end - x));
+              title = text_width(*ui.fonts.title, run.now().title) + ui.theme.px(10),
+              place = text_width(*ui.fonts.small, step_text(run));
+  const HeadParts head{.place = left + place <= end, .title = left + title + place <= end};
+  if (head.title) draw_on_baseline(draw, *ui.fonts.title, {left, baseline}, c.text, run.now().title);
+  const float x = head.title ? left + title : left;
+  if (head.place) draw_on_baseline(draw, *ui.fonts.small, {x, baseline}, c.quiet, place_text(ui, run, end - x));
 
   Region area{{left, region.at.y + ui.theme.px(header_at_1)}, {width, region.size.y - ui.theme.px(header_at_1 + 4)}};
   if (with_constants && !checked_constants(ui).empty()) {
@@ -537,7 +553,7 @@ void lab_in_strip(Ui& ui, LabRun& run, const Region& region, bool with_constants
     checked_rows(ui, area.at, rows);
     area.at.x += beside, area.size.x -= beside;
   }
-  draw_step(ui, run, area, area.size.x >= ui.theme.px(two_columns_from) ? 2 : 1, titled);
+  draw_step(ui, run, area, area.size.x >= ui.theme.px(two_columns_from) ? 2 : 1, head);
 }
 
 }  // namespace

@@ -123,13 +123,13 @@ std::optional<double> longest_of(const Group& group, const std::set<std::string>
   return longest;
 }
 
-/// Where the scales stand: in the first picture's lower left corner, above the names of copies.
+/// Where the scales stand: in the first picture's lower left corner, above the names of copies and a message.
 ImVec2 place_of_bars(const Ui& ui) {
   const glm::vec2 lo = ui.viewport.origin(0), hi = lo + ui.viewport.size();
   float foot = hi.y - ui.theme.px(12);
   for (const OverlayLayout::Mark& mark : ui.placing.marks())
-    if (mark.name.starts_with("name ") && mark.box.lo.x < lo.x + ui.theme.px(32) && mark.box.hi.y > lo.y &&
-        mark.box.lo.y < hi.y)
+    if ((mark.name.starts_with("name ") || mark.name == "message") && mark.box.lo.x < lo.x + ui.theme.px(32) &&
+        mark.box.hi.y > lo.y && mark.box.lo.y < hi.y)
       foot = std::min(foot, mark.box.lo.y - ui.theme.px(8));
   return {lo.x + ui.theme.px(22),
           std::round(foot - std::max(ui.theme.px(10), ui.fonts.axis->FontSize / 2 + ui.theme.px(3)))};

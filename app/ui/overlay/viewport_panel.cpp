@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
@@ -172,6 +173,10 @@ void viewport_panel(Ui& ui, const Region& region) {
   const bool above = !ui.presenting && (ui.session.copies.tiles() > 1 || low);
   if (above) ui.viewport.box.lo.y += ui.theme.px(buttons_above);
   ui.viewport.divide(ui.session.copies.tiles());
+  // Among other pictures, places have another order.
+  if (std::exchange(ui.divided, {ui.viewport.columns, ui.viewport.rows}) !=
+      glm::ivec2(ui.viewport.columns, ui.viewport.rows))
+    ui.pause_place.reset(), ui.legend_place.reset();
   ui.viewport.buttons = above || !buttons ? 0 : ui.theme.px(buttons_above);
   if ((buttons || ui.presenting) && ui.session.copies.tiles() == 1)
     ui.viewport.buttons += marks_height(ui, ui.viewport.size().x, !above) + names_above_height(ui);

@@ -30,14 +30,21 @@ struct Ui;
 /// What the Accuracy card shows: error over cost, the order of convergence, or settings for an error.
 enum class AccuracySide { errors, convergence, settings };
 
+/// A card of those above each other, and where it begins in what scrolls, pixels.
+struct CardAnchor {
+  std::string card;
+  float from;
+};
+
 /// The column of plots and cards.
 struct Plots {
   bool log = false;
-  std::optional<double> window_s;  ///< simulated time shown, once the wheel has set it; until then it grows
-  std::string tab;                 ///< name of the card shown where only one has room; another: the first
-  std::string wanted;              ///< of a card that is to come to the front where it is a tab
-  std::vector<std::string> cards;  ///< names on the tabs; none where all cards have room
-  float width = 0;                 ///< of a card, pixels
+  std::optional<double> window_s;    ///< simulated time shown, once the wheel has set it; until then it grows
+  std::string tab;                   ///< name of the card shown where only one has room; another: the first
+  std::string wanted;                ///< of a card that is to come to the front where it is a tab
+  std::vector<std::string> cards;    ///< names on the tabs; none where all cards have room
+  std::optional<CardAnchor> anchor;  ///< the first tool that is seen
+  float width = 0;                   ///< of a card, pixels
   std::array<bool, Recorded::forces_count> hidden{true, false, false, false, false, true, true};
   std::array<bool, 4> figure_hidden{};
   AccuracySide accuracy = AccuracySide::errors;
@@ -233,6 +240,7 @@ struct Ui : UiContext {
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
   std::optional<CopyDetails> copy_details;
   std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
+  glm::ivec2 divided{1};                                 ///< columns and rows of the pictures in the last frame
   bool banner_over_views = false;                        ///< it needs the view buttons' place: they are not there
   std::optional<Viewport::Box> message_box;              ///< of the message that was shown last frame, pixels
   float marks_from = 0;                  ///< y from which marks may stand over the cloth, under the buttons; pixels
