@@ -67,12 +67,12 @@ Preset with_constants(const Preset& preset, const py::dict& constants) {
 
 void add_preset(py::module_& module) {
   module.def("presets", &shipped_presets, "Names of the shipped presets.");
-  py::class_<Preset> preset(module, "Preset",
-                            "A scene: all of its constants, under the keys of the notation table (docs/notation.md) "
-                            "and of --set. Preset() is the default cloth; Preset(k_s=200, integrator=\"rk4\") changes "
-                            "two constants. A wrong key or value raises PresetError and changes nothing.");
-  refuse_objects_without_value(preset);
-  preset.def(py::init([](const py::kwargs& constants) { return with_constants({}, constants); }))
+  py::class_<Preset> type(module, "Preset",
+                          "A scene: all of its constants, under the keys of the notation table (docs/notation.md) "
+                          "and of --set. Preset() is the default cloth; Preset(k_s=200, integrator=\"rk4\") changes "
+                          "two constants. A wrong key or value raises PresetError and changes nothing.");
+  refuse_objects_without_value(type);
+  type.def(py::init([](const py::kwargs& constants) { return with_constants({}, constants); }))
       .def_static(
           "load", [](const std::string& name) { return read_preset(find_preset(name).file); }, py::arg("name"),
           "Reads a shipped preset by its name (presets()), or else a preset file.")
