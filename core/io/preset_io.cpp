@@ -72,6 +72,12 @@ std::string pins_problem(const Preset& p) {
   return {};
 }
 
+/// Values that only the other shape has mean nothing, and no writer keeps them.
+void drop_other_shape(Body& body) {
+  if (!shape_has(body.shape, "y")) body.y = Body().y;
+  if (!shape_has(body.shape, "r")) body.c = Body().c, body.r = Body().r;
+}
+
 /// Reads values of one source (a file, a --set) into a preset; knows how to complain.
 class Reader {
  public:
@@ -171,6 +177,7 @@ class Reader {
     if (node.type != Type::object) wrong_type(node, path, "an object {…}");
     out = {};
     for (const auto& [key, child] : node.members) body_key(key, child, path + "." + key, out);
+    drop_other_shape(out);
   }
 
   void bodies(const JsonNode& node, const std::string& path, std::vector<Body>& out) const {
@@ -320,6 +327,19 @@ void apply_setting(const Setting& setting, Preset& p) {
   if (!apply_to_component(key, node, reader, p)) reader.key(section, key, node, key, p);
 }
 
+/// Refuses a value of a body whose shape, once all settings are made, has none of that name.
+void check_shape(const Setting& setting, const Preset& p) {
+  std::size_t index = 0;
+  std::string inner;
+  if (!body_setting(setting.key, index, inner) || index >= p.bodies.size()) return;
+  const Body::Shape shape = p.bodies[index].shape;
+  if (!shape_has(shape, inner))
+    Reader(setting.typed)
+        .fail(0, setting.key,
+              shape == Body::Shape::plane ? "a plane has a height y, no c and no r"
+                                          : "a sphere has c and r, no height y");
+}
+
 }  // namespace
 
 std::string texture_problem(const std::string& texture, const std::filesystem::path& folder) {
@@ -383,6 +403,8 @@ Setting parse_setting(const std::string& text) {
 Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& settings) {
   Preset changed = preset;
   for (const Setting& setting : settings) apply_setting(setting, changed);
+  for (const Setting& setting : settings) check_shape(setting, changed);
+  for (Body& body : changed.bodies) drop_other_shape(body);
   if (const auto problem = check_preset(changed); !problem.empty()) throw PresetError("--set: " + problem);
   return changed;
 }

@@ -48,9 +48,7 @@ std::string pins_text(const Pins& pins) {
 std::string body_text(const Body& body) {
   std::string text = "{\"shape\": " + json_text(name_of(body.shape));
   for (const BodyRow& row : body_notation()) {
-    const bool plane_only = row.key == "y", sphere_only = row.key == "c" || row.key == "r";
-    if ((plane_only && body.shape != Body::Shape::plane) || (sphere_only && body.shape != Body::Shape::sphere))
-      continue;
+    if (!shape_has(body.shape, row.key)) continue;
     text += ", " + json_text(row.key) + ": " + field_text(row, body);
   }
   return text + "}";

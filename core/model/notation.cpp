@@ -181,6 +181,11 @@ const BodyRow* find_body_row(std::string_view key) {
   return row == body_rows.end() ? nullptr : &*row;
 }
 
+bool shape_has(Body::Shape shape, std::string_view key) {
+  if (key == "c" || key == "r") return shape == Body::Shape::sphere;
+  return key != "y" || shape == Body::Shape::plane;
+}
+
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
   // A key longer than any known one by far cannot be a slip of the finger, and would only cost time.
   if (word.size() > 64) return std::nullopt;

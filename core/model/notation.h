@@ -52,6 +52,8 @@ std::span<const BodyRow> body_notation();
 /// Row with that inner key, or nullptr.
 const PresetRow* find_row(std::string_view key);
 const BodyRow* find_body_row(std::string_view key);
+/// Whether bodies of that shape have a value of that name.
+bool shape_has(Body::Shape shape, std::string_view key);
 
 /// A derived variable of table B.1 (F, F_s, …, x, ẋ, ẍ): read out, not set.
 struct Variable {

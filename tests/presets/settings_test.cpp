@@ -25,6 +25,8 @@ TEST_CASE("every form of --set") {
   CHECK(set({"bodies[1].y=-0.5"}).bodies[1].y == -0.5);
   CHECK(set({"bodies[0].c=[1,2,3]"}).bodies[0].c == glm::dvec3(1, 2, 3));
   CHECK(set({"bodies[0].shape=plane"}).bodies[0].shape == Body::Shape::plane);
+  CHECK(set({"bodies[0].y=1", "bodies[0].shape=plane"}).bodies[0].y == 1);
+  CHECK(set({"bodies[0].shape=plane"}).bodies[0].r == Body().r);  // which a plane has not
   CHECK(set({"bodies=[]"}).bodies.empty());
   CHECK(set({"bodies=[{\"shape\": \"plane\", \"y\": 1}]"}).bodies[0].y == 1);
   CHECK(set({"integrator=euler"}).integrator == "euler");
@@ -79,6 +81,8 @@ TEST_CASE("a wrong setting is refused by its name and leaves the preset as it wa
                               "bodies[0]=5",
                               "bodies[0].=5",
                               "bodies[0].q=5",
+                              "bodies[0].y=1",    // a sphere
+                              "bodies[1].r=0.3",  // a plane
                               "bodies.r=5",
                               "bodies[0.r=5",
                               "bodies[0].r=0",

@@ -81,7 +81,7 @@ TEST_CASE("the tables say what the running code does: a weight on its spring gro
         preset.m = 1, preset.k = 100, preset.k_d = 20 * zeta, preset.dt = h / std::sqrt(preset.k / preset.m);
         const double growth = std::log(radius(s.name.data(), h, zeta));
         // What leaves every bound, or falls under rounding, before it can be measured is left out.
-        const int window = std::min(40, int(8 / std::abs(growth)));
+        const int window = int(std::min(40.0, 8 / std::abs(growth)));
         if (window < 12) continue;
         // The envelope of the motion over many steps, by the largest |y| in two windows.
         Simulation simulation(preset);

@@ -15,12 +15,6 @@ namespace {
 
 constexpr std::size_t most_bodies = 64;
 
-bool belongs(const BodyRow& row, Body::Shape shape) {
-  if (row.key == "c" || row.key == "r") return shape == Body::Shape::sphere;
-  if (row.key == "y") return shape == Body::Shape::plane;
-  return true;
-}
-
 bool seen_whole(const Ui& ui, const Bounds& box) {
   const glm::vec2 size = ui.viewport.size();
   const auto part = size.x > 1 && size.y > 1 ? part_of_picture(ui.scene.camera, box, size.x / size.y) : std::nullopt;
@@ -75,7 +69,7 @@ void body_block(Ui& ui, int index) {
   ImGui::SetCursorScreenPos({lo.x + width - side, lo.y});
   if (quiet_button(ui, "remove", icon::trash, "remove", "Remove this body")) remove_body(ui, index);
   for (const BodyRow& row : body_notation())
-    if (belongs(row, body.shape)) body_row(ui, row, index);
+    if (shape_has(body.shape, row.key)) body_row(ui, row, index);
 }
 
 std::vector<std::string> shipped_textures() {

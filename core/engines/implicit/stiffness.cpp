@@ -32,7 +32,7 @@ HWY_INLINE Vec3<D> resistance(const hn::TFromD<D>* c, std::ptrdiff_t stride, Vec
 
 template <class R>
 double multiply(const ProductTask<R>& t) {
-  assert(t.columns > 0 && t.columns <= t.stride && t.m > 0);
+  assert(t.columns > 0 && t.columns <= t.stride && !(t.m < 0));
   using D = hn::ScalableTag<R>;
   using V = Vec3<D>;
   constexpr int lanes = int(hn::MaxLanes(D()));
