@@ -51,8 +51,9 @@ Balance judge(const StageForces& forces, double tolerance) {
   if (!std::isfinite(left)) return {false, std::numeric_limits<double>::infinity()};
   if (weightless && std::max(left, largest) <= digits) return {true, 0};  // nothing acts
   const double scale = std::max(largest, weight);
-  const bool solved = left <= std::max(tolerance * scale, std::min(digits, most_excused * scale));
-  return {solved, left / scale, !solved && left <= digits};
+  // A solution within the tolerance is then rounded.
+  const bool solved = left <= tolerance * scale + std::min(digits, most_excused * scale);
+  return {solved, left / scale, !solved && left <= tolerance * scale + digits};
 }
 
 template <class R>

@@ -66,8 +66,8 @@ struct StageForces {
   double digits;   ///< last_digits(), or 0 where these excuse nothing
   bool weightless;
 };
-/// The residual of a stage, and whether it counts as solved: below `tolerance`, or below the last digits where these
-/// are small compared with the largest force (most_excused).
+/// The residual of a stage, and whether it counts as solved: within `tolerance`, to which rounding may add the last
+/// digits, up to most_excused.
 Balance judge(const StageForces& forces, double tolerance);
 
 /// A stage x = c_x + h v, v = c_v + h a(x, v), as an engine stores it: each array row by row, its x, then its y, then

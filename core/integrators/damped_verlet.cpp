@@ -41,7 +41,7 @@ Scheme damped_verlet() {
 
 *The linear system.* The eigenvalues of its matrix lie between 1 and $\kappa = 1 + 6\,dt\,k_d/m$, also )"
           R"(with tears and pins, and Chebyshev iteration needs only these bounds. It computes no sums over the )"
-          R"(cloth, makes a number of products that does not depend on the motion, stores no factors (a band factor )"
+          R"(cloth, makes a number of products that does not depend on the motion, needs no factor (that )"
           R"(of a 4096 × 4096 cloth would have $7 \cdot 10^{10}$ numbers), and gives identical bits for any number )"
           R"(of threads. Two equal rounds of $n$ products leave the residual polynomial $(T_n(\cdot)/T_n(\cdot))^2 )"
           R"(\ge 0$. In every mode the computed $s$ can therefore only be smaller than the solution, as if the )"

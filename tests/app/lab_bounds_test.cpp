@@ -137,8 +137,9 @@ double torn(LabPlayer& play) {
 }
 
 TEST_CASE("no F_max that is typed at once is confirmed: a value that holds and one that tears are measured" *
-          doctest::test_suite("slow") * doctest::may_fail()) {
-  for (const double F_max : {0.065, 0.085}) {
+          doctest::test_suite("slow")) {
+  // Each tears the sheet, the last by the jolt of what breaks at once: a tear alone says nothing of where it begins.
+  for (const double F_max : {0.065, 0.085, 0.09}) {
     CAPTURE(F_max);
     LabPlayer play = sheet_at_rest();
     play.set(setting("F_max", F_max));
@@ -146,22 +147,37 @@ TEST_CASE("no F_max that is typed at once is confirmed: a value that holds and o
     CHECK(torn(play) >= 100);
     CHECK_FALSE(play.done());
   }
+  // Nor does a value that holds, or a tear that lies far from it.
   LabPlayer play = sheet_at_rest();
-  play.set(setting("F_max", 0.092));
+  play.set(setting("F_max", 0.105));
   play.run(1.5);
-  CHECK(torn(play) < 100);  // it holds
+  CHECK(torn(play) < 100);
   CHECK_FALSE(play.done());
-  play.set(setting("F_max", 0.085));
+  play.set(setting("F_max", 0.09));
   play.run(1.5);
   CHECK(torn(play) >= 100);
-  REQUIRE(play.done());
-  CHECK_FALSE(play.right());  // 0.065 N
-  CHECK(play.lab().record().answer == doctest::Approx(0.0885));
+  CHECK_FALSE(play.done());
+}
 
-  // The tear is where theory puts it: between half and all of the weight that hangs below.
+TEST_CASE("where a tear begins does not depend on how finely F_max is lowered, up to the 3 % that the lab asks for" *
+          doctest::test_suite("slow")) {
+  // Half and all of the weight that hangs below the top row in each column.
   const double weight = 39 * 0.0003 * 9.82;
-  CHECK(play.lab().record().answer > weight / 2);
-  CHECK(play.lab().record().answer < weight);
+  for (const double step : {0.001, 0.002}) {
+    CAPTURE(step);
+    LabPlayer play = sheet_at_rest();
+    for (double F_max = 0.11; torn(play) < 100 && F_max > 0.05; F_max -= step) {
+      CHECK_FALSE(play.done());
+      play.set(setting("F_max", F_max));
+      play.run(1.1);
+    }
+    REQUIRE(play.done());
+    CHECK_FALSE(play.right());  // 0.065 N
+    const double answer = play.lab().record().answer;
+    CHECK(answer > weight / 2);
+    CHECK(answer < weight);
+    CHECK(answer == doctest::Approx(0.082).epsilon(0.03));  // what the text says, and two thirds of the weight
+  }
 }
 
 TEST_CASE("what a fall tears does not count as the F_max of a sheet at rest" * doctest::test_suite("slow")) {

@@ -288,7 +288,7 @@ TEST_CASE("lab: tearing, done wrongly") {
   play.restart();
   play.set("F_max=0");
   play.run(2.5);
-  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max *= 0.96) {
+  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max -= 0.002) {
     play.set("F_max=" + std::to_string(F_max));
     play.run(1.1);
   }

@@ -289,7 +289,7 @@ TEST_CASE("lab: tearing a cloth on purpose") {
   finish(play);
   play.next();
   play.predict("0.08");
-  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max *= 0.96) {
+  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max -= 0.002) {
     play.set("F_max=" + std::to_string(F_max));
     play.run(1.1);
   }

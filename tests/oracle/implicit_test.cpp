@@ -154,7 +154,7 @@ TEST_CASE("in float a step converges as far as positions allow, and one linearis
     Simulation simulation(preset);
     simulation.advance(8);
     CHECK(simulation.engine().solves().unconverged == 0);
-    CHECK(simulation.engine().solves().worst_residual <= (k_s < 100 ? 1e-3 : most_excused));
+    CHECK(simulation.engine().solves().worst_residual <= (k_s < 100 ? 1e-3 : most_excused + 1e-4));
   }
   Preset preset = stiff_cloth(24, 1e5, "implicit_euler");
   preset.iterations = 1;
@@ -246,7 +246,7 @@ TEST_CASE("what is claimed of a step holds of the state that is kept, and says w
         const double read = single ? 2e-4 : slack;
         CHECK(most <= 1.25 * solves.worst_residual + read);
         if (preset.integrator != "tr_bdf2") CHECK(most >= solves.worst_residual / 1.25 - read);  // it has two stages
-        CHECK((solves.unconverged == 0) == (solves.worst_residual <= (single ? most_excused : 1e-6)));
+        CHECK((solves.unconverged == 0) == (solves.worst_residual <= (single ? most_excused + 1e-4 : 1e-6)));
         if (counts_passes(scheme(method))) continue;
         if (!single && k_s <= 1e5) CHECK(solves.unconverged == 0);
         if (single && k_s >= 1e7) CHECK(solves.unconverged > 0);
@@ -255,6 +255,15 @@ TEST_CASE("what is claimed of a step holds of the state that is kept, and says w
           CHECK(solves_missed(solves, simulation.steps(), preset).find("--precision double") != std::string::npos);
         }
       }
+}
+
+TEST_CASE("in float no step of an ordinary scene counts as unsolved for what rounding adds to the tolerance") {
+  Preset preset;  // 32 x 32
+  preset.integrator = "implicit_euler", preset.dt = 0.01;
+  Simulation simulation(preset);
+  simulation.advance(test::fewer(200, 20));
+  CHECK(simulation.engine().solves().unconverged == 0);
+  CHECK(simulation.engine().solves().worst_residual < 2e-3);
 }
 
 TEST_CASE("what rounding will do is said before the first step, and then it does that") {
