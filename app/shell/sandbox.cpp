@@ -314,7 +314,10 @@ void Sandbox::save_picture() {
   Image image = window_.pixels();
   if (!wanted.whole_window) {
     const glm::vec2 scale = glm::vec2(image.width, image.height) / glm::vec2(window_.size());
-    image = cropped(image, glm::round(scene_.viewport.box.lo * scale), glm::round(scene_.viewport.box.hi * scale));
+    const glm::vec2 lo = glm::round(scene_.viewport.box.lo * scale);
+    glm::vec2 hi = glm::round(scene_.viewport.box.hi * scale);
+    if (ui_.film) hi -= glm::mod(hi - lo, 2.f);  // video encoders need even numbers of pixels
+    image = cropped(image, lo, hi);
   }
   try {
     write_png(wanted.file, image);
