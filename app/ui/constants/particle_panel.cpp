@@ -85,7 +85,7 @@ std::string in_table(double value) {
   const bool fixed = (size > 0 && size < 0.0995) || size >= 999.5;
   if (!fixed) return steady_number(value);
   char text[16];
-  std::snprintf(text, sizeof text, "%.*f", size < 1 ? 3 : 0, value);
+  std::snprintf(text, sizeof text, "%.*f", size < 1 ? 3 : 0, size < 0.0005 ? 0 : value);  // no "-0.000"
   return text;
 }
 
