@@ -277,7 +277,7 @@ TEST_CASE("what rounding will do is said before the first step, and then it does
       CHECK((precision_too_coarse(preset).find("--precision double") != std::string::npos) == coarse);
       Simulation single(preset);
       single.advance(3);
-      CHECK(single.engine().solves().unconverged == (coarse ? 3 : 0));
+      CHECK((single.engine().solves().unconverged > 0) == coarse);
       CHECK(single.engine().solves().rounded == single.engine().solves().unconverged);
       preset.precision = Precision::double_;
       CHECK(precision_too_coarse(preset).empty());
