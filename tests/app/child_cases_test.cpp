@@ -36,7 +36,7 @@ TEST_CASE("what cases say arrives whole and in the order of their numbers") {
   }
 }
 
-TEST_CASE("a case that crashes, hangs or throws is told, and the others go on") {
+TEST_CASE("a case that crashes, hangs or throws is told, and the others go on" * doctest::test_suite("slow")) {
   const auto told =
       told_by({.from = 0, .count = 6, .at_a_time = 2, .most_processor_seconds = 0.1, .work = [](std::int64_t n) {
                  if (n == 1) raise(SIGKILL);

@@ -253,7 +253,7 @@ TEST_CASE("lab: chaos, done wrongly" * doctest::test_suite("slow")) {
   CHECK_FALSE(play.right());
 }
 
-TEST_CASE("lab: tearing, done wrongly") {
+TEST_CASE("lab: tearing, done wrongly" * doctest::test_suite("slow")) {
   LabPlayer play("09_tearing");
   play.predict("0.115");
   play.run(30);

@@ -84,7 +84,7 @@ TEST_CASE("presets opened and saved in a session") {
   ask("session: save preset", [](Session& s, const Names& names) { save_document_as(s, names.mine, names.name); });
 }
 
-TEST_CASE("a session that steps: what is short pauses it, with a message") {
+TEST_CASE("a session that steps: what is short pauses it, with a message" * doctest::test_suite("slow")) {
   Session session;
   Preset preset = test::cloth(12, 12, "implicit_euler");
   session.simulation = std::make_shared<Simulation>(preset);

@@ -38,7 +38,7 @@ void compare(int rows, int columns, const std::string& integrator, Precision pre
   advance(40);
 }
 
-TEST_CASE("every instruction set agrees with the oracle") {
+TEST_CASE("every instruction set agrees with the oracle" * doctest::test_suite("slow")) {
   std::set<std::string> names;
   for (const std::int64_t target : test::targets()) {
     const test::OnlyTarget only(target);

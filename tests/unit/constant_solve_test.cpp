@@ -238,7 +238,8 @@ TEST_CASE("damping however strong is solved where the cloth is small enough to b
   }
 }
 
-TEST_CASE("where a factor is too large, an unfinished solve slows no common motion, and is reported") {
+TEST_CASE("where a factor is too large, an unfinished solve slows no common motion, and is reported" *
+          doctest::test_suite("slow")) {
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
     Preset p = test::cloth(130, 130, "damped_verlet");

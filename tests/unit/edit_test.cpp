@@ -125,7 +125,7 @@ TEST_CASE(
       for (const Kind& kind : kinds()) check(scene(method, precision, EngineKind::cpu), kind);
 }
 
-TEST_CASE("the same on an OpenCL device") {
+TEST_CASE("the same on an OpenCL device" * doctest::test_suite("slow")) {
   if (test::skipped_without_device()) return;
   for (const char* name : {"verlet", "velocity_verlet", "force_gradient4", "rk4"})
     for (const Kind& kind : kinds()) check(scene(scheme(name), Precision::double_, EngineKind::opencl), kind);

@@ -20,7 +20,7 @@ Preset eventful(const Scheme& method, Precision precision) {
   return preset;
 }
 
-TEST_CASE("from a snapshot the same steps follow, to the last bit, with every method") {
+TEST_CASE("from a snapshot the same steps follow, to the last bit, with every method" * doctest::test_suite("slow")) {
   const int before = test::fewer(137, 30), after = test::fewer(211, 40);
   for (const Scheme& method : schemes())
     for (const Precision precision : {Precision::float_, Precision::double_}) {
