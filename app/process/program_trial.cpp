@@ -6,7 +6,6 @@
 
 #include "app/base/settings.h"
 #include "app/process/child.h"
-#include "core/engines/opencl/device.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/engines/vertex_sharing.h"

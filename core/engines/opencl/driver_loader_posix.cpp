@@ -1,4 +1,4 @@
-#include "core/engines/opencl/device.h"
+#include "core/engines/opencl/opencl_devices.h"
 
 namespace tyglab::opencl {
 

@@ -1,6 +1,6 @@
 #include <windows.h>
 
-#include "core/engines/opencl/device.h"
+#include "core/engines/opencl/opencl_devices.h"
 
 namespace tyglab::opencl {
 
