@@ -283,7 +283,7 @@ TEST_CASE("the integrator is switched while the cloth moves, and the motion goes
 }
 
 TEST_CASE("a tooltip stands where it belongs once the window sleeps") {
-  for (const std::string name : {"top.help", "top.labs", "constants.k_s.slider", "viewport.views_1"}) {
+  for (const std::string name : {"top.help", "top.labs", "constants.k_s.slider", "viewport.views.5"}) {
     CAPTURE(name);
     test::NullUi window({.size = {900, 600}});
     window.pause();
