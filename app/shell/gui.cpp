@@ -20,10 +20,10 @@ Gui::~Gui() {
   ImGui::DestroyContext();
 }
 
-void Gui::begin_frame(InputQueue& input) {
+void Gui::begin_frame(InputQueue& input, bool bare) {
   ImGui_ImplOpenGL3_NewFrame();
   backend_->begin_frame();
-  input_.feed(input);
+  bare ? input_.hold(input) : input_.feed(input);
   ImGui::NewFrame();
 }
 

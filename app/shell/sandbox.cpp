@@ -324,6 +324,7 @@ void Sandbox::save_picture() {
     hand_out(wanted.file);
     if (!ui_.film) session_.messages.note("Saved " + wanted.file.string());
   } catch (const OutputError& error) {
+    if (!ui_.film) return show_picture_problem(ui_, wanted, error.what());
     session_.messages.error(error.what());
     ui_.film.reset();
   }
@@ -355,7 +356,7 @@ void Sandbox::frame_parts() {
   draw_cloth();
   {
     const FrameCosts::Timer timer(session_.costs, Part::panels);
-    gui_.begin_frame(input_);
+    gui_.begin_frame(input_, ui_.bare());
     draw_panels(ui_);
   }
   present();

@@ -50,8 +50,8 @@ class Gui {
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
-  /// Shows it what the queue holds.
-  void begin_frame(InputQueue& input);
+  /// Shows it what the queue holds, unless the frame is `bare` (Ui::bare()).
+  void begin_frame(InputQueue& input, bool bare);
   /// Ends the frame and draws it.
   void draw();
   /// To be called after the font atlas was filled again.

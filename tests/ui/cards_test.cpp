@@ -329,6 +329,23 @@ TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it
   CHECK_FALSE(studies(window).map.findings().has_value());
 }
 
+TEST_CASE("the Map card says in whole words that a cloth is too large for it") {
+  for (const double scale : {1.0, 1.5}) {
+    CAPTURE(scale);
+    test::NullUi window({.with = [](Preset& p) { p.rows = p.columns = 160; },
+                         .size = {1280, 720},
+                         .settings = [scale](Settings& s) { s.ui_scale = scale; }});
+    window.pause();
+    window.key(GLFW_KEY_M);
+    window.frames(6);
+    CHECK(window.drew("This cloth is too large to be mapped here."));
+    for (const std::string& cut : window.cut_texts()) {
+      CAPTURE(cut);
+      CHECK(cut.find("cloth") == std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("the Energy card has the textbook's names, and says what a whole bar stands for") {
   test::NullUi window({.preset = "one_weight",
                        .with = [](Preset& preset) { preset.k = 10, preset.g = 0, preset.offset = 0.2; },

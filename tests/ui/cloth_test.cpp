@@ -224,12 +224,20 @@ TEST_CASE("a body that is added is in view, and its constants in sight; a plane 
       CHECK(window.sees(std::string("constants.bodies[0].") + key));
     const Bounds cloth = bounds(window.cloth().positions());
     CHECK(sphere.c.y + sphere.r < cloth.lo.y);  // it starts no contact
+    CHECK(sphere.friction == 0.5);
+    for (const double value : {sphere.c.x, sphere.c.y, sphere.c.z, sphere.r})
+      CHECK(value == std::round(100 * value) / 100);
+    CHECK(window.drew("Sphere"));
+    CHECK_FALSE(window.drew("Sphere 1"));
     window.click("constants.Add_plane");
     window.frames(6);
     REQUIRE(window.preset().bodies.size() == 2);
     const Body& plane = window.preset().bodies[1];
     CHECK(plane.friction == 0.5);
     CHECK(plane.y < sphere.c.y - sphere.r);
+    CHECK(plane.y == std::round(100 * plane.y) / 100);
+    CHECK(window.drew("Plane"));
+    CHECK_FALSE(window.drew("Plane 2"));
     CHECK(window.sees("constants.bodies[1].y.slider"));
     CHECK(window.sees("constants.bodies[1].restitution.slider"));
     const glm::vec2 at = pixel(window, {0, plane.y, 0});
@@ -249,6 +257,9 @@ TEST_CASE("a body that is added is in view, and its constants in sight; a plane 
   window.frames(6);
   REQUIRE(window.preset().bodies.size() == 2);
   CHECK(window.preset().bodies[1].c.y - window.preset().bodies[1].r > 0.5);
+  window.click("constants.Add_sphere");
+  window.frames(6);
+  CHECK(window.drew("Sphere 2"));
 }
 
 TEST_CASE("every picture of several shows its cloth once they are framed, above its name") {

@@ -282,6 +282,27 @@ TEST_CASE("the integrator is switched while the cloth moves, and the motion goes
   }
 }
 
+TEST_CASE("a tooltip stands where it belongs once the window sleeps") {
+  for (const std::string name : {"top.help", "top.labs", "constants.k_s.slider", "viewport.views.5"}) {
+    CAPTURE(name);
+    test::NullUi window({.size = {900, 600}});
+    window.pause();
+    window.until([&] { return window.session.studies.stability.limits().has_value(); }, "what it tells of");
+    window.move(window.middle(name));
+    window.until([&] { return window.ui.tooltip.has_value(); }, "the tooltip to be measured");
+    for (int n = 0; n < 9 && window.ui.draw_by <= window.ui.now; ++n) window.frame();
+    const auto asleep = window.tooltip();
+    REQUIRE(asleep.has_value());
+    CHECK(asleep->lo.x >= 0);
+    CHECK(asleep->lo.y >= 0);
+    CHECK(asleep->hi.x <= 900);
+    CHECK(asleep->hi.y <= 600);
+    window.frames(4);
+    CHECK(window.tooltip()->lo == asleep->lo);
+    CHECK(window.tooltip()->hi == asleep->hi);
+  }
+}
+
 TEST_CASE("a tooltip stands beside its row and hides no constant; while the help is open there is none") {
   for (const auto& [size, scale] : {std::pair{glm::ivec2{1280, 720}, 1.0}, {{900, 600}, 1.5}}) {
     CAPTURE(size.x);

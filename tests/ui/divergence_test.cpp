@@ -216,6 +216,44 @@ TEST_CASE("a constant pushed too far offers to undo that change and restart, whi
   run_to(window, 1);
 }
 
+TEST_CASE("Ctrl+R and R mend what R alone leads to again") {
+  test::NullUi window;
+  window.type_value("dt", "0.004");
+  explode(window);
+  window.key(GLFW_KEY_R);
+  explode(window);
+  window.key(GLFW_KEY_R, GLFW_MOD_CONTROL);
+  window.frames(2);
+  CHECK(window.preset().dt == 0.001);
+  window.key(GLFW_KEY_R);
+  window.frames(2);
+  run_to(window, 1);
+}
+
+TEST_CASE("in a small window a long message leaves the banner in sight, and is read in its tooltip") {
+  for (const char* theme : {"dark", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window(
+        {.preset = "explodes", .size = {900, 600}, .settings = [theme](Settings& s) { s.theme = theme; }});
+    explode(window);
+    const std::string end = "and these are its last words.";
+    window.session.messages.error(
+        "A message that is far longer than one line of a small window has room for, because "
+        "it tells of everything that has happened, of what could be done about it, " +
+        end);
+    window.frames(4);
+    REQUIRE(window.ui.message_box);
+    REQUIRE(window.ui.placing.find("banner") != nullptr);
+    CHECK_FALSE(overlap(*window.ui.message_box, *window.ui.placing.find("banner")));
+    CHECK_FALSE(window.drew(end));
+    CHECK(window.drew("A message that is"));
+    window.move((window.ui.message_box->lo + window.ui.message_box->hi) / 2.f);
+    window.until([&] { return window.tooltip().has_value(); }, "its tooltip");
+    window.frames(2);
+    CHECK(window.drew(end));
+  }
+}
+
 TEST_CASE("the banner says why in a column too narrow for a whole sentence") {
   for (const auto& [width, whole] : {std::pair{1280, true}, {1100, false}}) {
     CAPTURE(width);

@@ -73,6 +73,15 @@ TEST_CASE("the file follows a new name every time; a file that exists is replace
   CHECK(window.ui.dialog.kind == Kind::none);
 }
 
+TEST_CASE("what is typed into the save dialog replaces the name") {
+  test::NullUi window;
+  open_dialog(window, Kind::save);
+  window.until([&] { return window.typing(); }, "the name's field");
+  window.type("another");
+  CHECK(std::string(window.ui.dialog.name) == "another");
+  CHECK(fs::path(window.ui.dialog.path).filename() == "another.json");
+}
+
 TEST_CASE("a shipped preset is opened from the list; saving over it is refused") {
   test::NullUi window;
   open_dialog(window, Kind::open);

@@ -16,6 +16,14 @@ void fall_and_pause(test::NullUi& window) {
   window.pause();
 }
 
+void begin_film(test::NullUi& window, const std::filesystem::path& folder, std::string_view seconds) {
+  window.find("film");
+  window.fill("seconds", seconds);
+  window.fill("path", folder.string());
+  window.click(window.middle("dialog.Export"));
+  REQUIRE((window.ui.film || window.said("Exported")));
+}
+
 std::vector<double> numbers(std::string_view row, char separator = ',') {
   std::vector<double> out;
   for (const std::string& word : test::split(row, separator)) out.push_back(std::stod(word));
@@ -70,28 +78,99 @@ TEST_CASE("a film of the window is found by its other names, and has 25 images f
     window.key(GLFW_KEY_ESCAPE);
     window.frames(2);
   }
-  window.find("film");
   const test::TemporaryFolder folder;
-  window.fill("seconds", "0.2");
-  window.fill("path", (folder / "film").string());
-  window.click("dialog.Export");
-  REQUIRE(window.ui.film);
-  CHECK(std::filesystem::is_directory(folder / "film"));
   const double begun = window.t();
   std::vector<double> taken;
   std::string last;
-  for (int n = 0; n < 200 && window.ui.film; ++n) {
-    const auto elapsed = direct_film(window.ui);
-    if (!elapsed) break;
-    act_on_events(window.ui, *elapsed, 1.0 / 60);
-    if (window.ui.picture) taken.push_back(window.t()), last = window.ui.picture->file.filename().string();
-    window.ui.picture.reset();
-  }
+  window.on_picture = [&](const PictureOrder& order) {
+    taken.push_back(window.t()), last = order.file.filename().string();
+  };
+  begin_film(window, folder / "film", "0.2");
+  CHECK(std::filesystem::is_directory(folder / "film"));
+  window.until([&] { return !window.ui.film; }, "the end of the film");
   REQUIRE(taken.size() == 5);
   CHECK(last == "hanging_0004.png");
   for (std::size_t n = 0; n < taken.size(); ++n)
     CHECK(std::abs(taken[n] - begun - 0.04 * double(n)) <= 1.01 * window.preset().dt);
   CHECK(window.said("Exported 5 images to "));
+}
+
+TEST_CASE("the dialog says how fast a film plays and which command joins its images") {
+  test::NullUi window;
+  window.find("film");
+  window.frames(3);
+  CHECK(window.drew("25 images per second of playback"));
+  CHECK(window.drew("ffmpeg -framerate 25 -i hanging_%04d.png -pix_fmt yuv420p film.mp4"));
+}
+
+TEST_CASE("a click on its button ends a film, whichever frames are images, and cuts nothing") {
+  for (const double speed : {1.0, 0.01})  // slowly, several images are of one state
+    for (int after = 0; after < 4; ++after)
+      for (int held = 1; held < 5; ++held) {
+        CAPTURE(speed);
+        CAPTURE(after);
+        CAPTURE(held);
+        const test::TemporaryFolder folder;
+        test::NullUi window;
+        window.session.pacing.speed = speed;
+        begin_film(window, folder / "film", "60");
+        window.until([&] { return window.ui.film->frame > 3; }, "a few images");
+        const Box* button = window.ui.placing.find("stop_film");
+        REQUIRE(button != nullptr);
+        window.move((button->lo + button->hi) / 2.f);
+        window.frames(after);
+        window.input.on_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0, window.ui.now);
+        window.frames(held);
+        window.input.on_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0, window.ui.now);
+        window.frames(6);
+        CHECK_FALSE(window.ui.film);
+        CHECK(window.said("Exported "));
+        CHECK(window.session.counts.touches == 0);
+      }
+}
+
+TEST_CASE("Escape ends a film before anything else") {
+  const test::TemporaryFolder folder;
+  test::NullUi window;
+  window.key(GLFW_KEY_F5);
+  begin_film(window, folder / "film", "60");
+  window.frames(10);
+  REQUIRE(window.ui.film);
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(3);
+  CHECK_FALSE(window.ui.film);
+  CHECK(window.ui.presenting);
+}
+
+TEST_CASE("a folder that is not there keeps the dialog, the path and the keyboard") {
+  test::NullUi window;
+  window.pause();
+  const std::string nowhere = (window.config / "nowhere" / "cloth").string(),
+                    there = (window.config / "cloth").string();
+  for (const auto kind : {Dialog::Kind::write_export, Dialog::Kind::picture}) {
+    const bool mesh = kind == Dialog::Kind::write_export;
+    const std::string ending = mesh ? ".obj" : ".png";
+    CAPTURE(ending);
+    std::optional<PictureOrder> ordered;
+    window.on_picture = [&](const PictureOrder& order) { ordered = order; };
+    mesh ? window.key(GLFW_KEY_E, GLFW_MOD_CONTROL) : window.key(GLFW_KEY_P, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+    window.until([&] { return window.ui.dialog.kind == kind && window.typing(); }, "the dialog");
+    window.type(nowhere + ending);  // in place of what is proposed
+    CHECK(window.ui.dialog.path == nowhere + ending);
+    window.key(GLFW_KEY_ENTER);
+    window.frames(4);
+    CHECK(window.ui.dialog.kind == kind);
+    CHECK(window.ui.dialog.path == nowhere + ending);
+    CHECK_FALSE(window.ui.dialog.problem.empty());
+    CHECK_FALSE(ordered);
+    REQUIRE(window.typing());
+    window.type(there + ending);
+    CHECK(window.ui.dialog.path == there + ending);
+    window.key(GLFW_KEY_ENTER);
+    window.until([&] { return window.ui.dialog.kind == Dialog::Kind::none; }, "the dialog to close");
+    window.frames(3);
+    CHECK((mesh ? std::filesystem::exists(there + ending) : ordered && ordered->file == there + ending));
+  }
 }
 
 TEST_CASE("a mass on a spring is no mesh: that is said, and no dialog opens") {

@@ -75,6 +75,31 @@ TEST_CASE("legend, scale of arrows, labels and PAUSED keep apart, and PAUSED off
   }
 }
 
+TEST_CASE("the legend leaves a cloth that has come to lie under it, wherever there is free ground") {
+  for (const bool presenting : {false, true})
+    for (const LookCase& look : {looks[1], looks[3], LookCase{{900, 600}, 1, "projector"}}) {
+      CAPTURE(presenting);
+      CAPTURE(look.size.x);
+      CAPTURE(std::string(look.theme));
+      test::NullUi window(options(look, "sphere", "tension"));
+      if (presenting) window.key(GLFW_KEY_F5);
+      window.until([&] { return window.t() > 3; }, "the cloth to lie on the sphere");
+      const Box* legend = window.ui.placing.find("legend");
+      REQUIRE(legend != nullptr);
+      const glm::vec2 size = legend->hi - legend->lo;
+      CHECK(covered(*legend, drawn_parts(window.ui)) < 0.25f * size.x * size.y);
+    }
+  // A window that is made smaller.
+  test::NullUi window(options(looks[0], "hanging", "tension"));
+  window.until([&] { return window.t() > 1; }, "the cloth to hang");
+  window.resize({900, 600});
+  window.frames(120);
+  const Box* legend = window.ui.placing.find("legend");
+  REQUIRE(legend != nullptr);
+  CHECK(covered(*legend, drawn_parts(window.ui)) <
+        0.25f * (legend->hi.x - legend->lo.x) * (legend->hi.y - legend->lo.y));
+}
+
 TEST_CASE("the check of view 2 has a ground of its own beside or under the buttons, and the wind's label is seen") {
   for (const LookCase& look : std::span(looks).first(4)) {
     CAPTURE(look.size.x);

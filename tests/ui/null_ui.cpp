@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <memory>
 #include <thread>
@@ -120,15 +121,17 @@ NullUi::~NullUi() {
 void NullUi::frame() {
   const auto begun = std::chrono::steady_clock::now();
   ui.now = tools.now = ui.now + frame_time;
+  ui.draw_by = std::numeric_limits<double>::infinity();
   if (take_look(ui, 1)) ui.fonts = fonts_of(ui.theme).fonts;
-  act_on_events(ui, frame_time, frame_time);
+  act_on_events(ui, direct_film(ui).value_or(frame_time), frame_time);
   scene.draw({1, 1});
-  gui_input_.feed(input);
+  ui.bare() ? gui_input_.hold(input) : gui_input_.feed(input);
   ImGui::NewFrame();
   draw_panels(ui);
   ImGui::Render();
   end_gestures(ui);
   places_.end_frame();
+  if (const auto picture = std::exchange(ui.picture, std::nullopt); picture && on_picture) on_picture(*picture);
   input.clear();
   if (after_frame) after_frame(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
 }

@@ -51,7 +51,8 @@ class NullUi : public Desk {
   /// Does what the window does in a frame, a 60th of a second after the last one.
   void frame();
   void frames(int count);
-  std::function<void(double seconds)> after_frame;  ///< called after each, with the wall time that it took
+  std::function<void(const PictureOrder&)> on_picture;  ///< called for each image that a frame would save
+  std::function<void(double seconds)> after_frame;      ///< called after each, with the wall time that it took
   /// Frames until the condition holds. Fails the test where it never does.
   void until(const std::function<bool()>& condition, std::string_view what);
 

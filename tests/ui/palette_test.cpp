@@ -49,6 +49,25 @@ TEST_CASE("Ctrl+P finds commands, methods, constants and presets by what is type
   CHECK(window.ui.dialog.kind == Dialog::Kind::unsaved);  // constants have changed
 }
 
+TEST_CASE("the palette adds bodies, by other names too") {
+  test::NullUi window;
+  window.pause();
+  window.find("add sphere");
+  REQUIRE(window.preset().bodies.size() == 1);
+  CHECK(window.preset().bodies[0].shape == Body::Shape::sphere);
+  window.find("add plane");
+  REQUIRE(window.preset().bodies.size() == 2);
+  CHECK(window.preset().bodies[1].shape == Body::Shape::plane);
+  const auto entries = palette_entries(window.ui);
+  for (const auto& [typed, title] :
+       {std::pair{"ball", "Add a sphere"}, {"floor", "Add a plane"}, {"ground", "Add a plane"}}) {
+    const std::vector<int> found = matching(entries, typed);
+    CHECK(std::any_of(found.begin(), found.end(), [&](int k) { return entries[std::size_t(k)].title == title; }));
+  }
+  test::NullUi weight({.preset = "one_weight"});
+  for (const PaletteEntry& entry : palette_entries(weight.ui)) CHECK(entry.title != "Add a sphere");
+}
+
 TEST_CASE("what is typed right after the key that opens a field is for the field, however slow the frames are") {
   test::NullUi window;
   const auto before = window.preset();

@@ -33,7 +33,9 @@ void take_place(Ui& ui, const MapGrid& grid, ImVec2 place) {
 }
 
 void words_alone(Ui& ui, const std::string& words) {
+  ImGui::PushTextWrapPos(0);
   wrapped(ui, words, ui.theme.colors.text);
+  ImGui::PopTextWrapPos();
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // Bodies (2.1.5) and the display options of the cloth: the last sections of the constants.
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/base/files.h"
@@ -21,35 +22,20 @@ bool seen_whole(const Ui& ui, const Bounds& box) {
   return part && part->lo.x >= 0 && part->lo.y >= 0 && part->hi.x <= 1 && part->hi.y <= 1;
 }
 
-/// Puts a sphere under the cloth, or over a cloth that lies on a plane; a plane under all that the scene holds. The
-/// camera and the column of constants show it.
-void add_body(Ui& ui, Body::Shape shape) {
-  constexpr double farthest = 1e3, friction_of_plane = 0.5;  // m, of c and y
-  Preset next = ui.session.requested_preset();
-  const bool readable = !ui.session.rebuild.holds_present() && !ui.session.simulation->divergence();
-  const Bounds scene = scene_bounds(next), cloth = readable ? bounds(ui.session.simulation->positions()) : scene;
-  const double size = std::max(next.rows - 1, next.columns - 1) * next.L * next.initial_stretch;
-  const glm::dvec3 middle = glm::dvec3(cloth.lo + cloth.hi) / 2.0;
-  Body body;
-  body.shape = shape;
-  Bounds shown;
-  if (shape == Body::Shape::sphere) {
-    body.r = std::clamp(0.25 * size, 1e-3, 100.0);
-    const double clear = 1.3 * body.r;
-    const auto floor = floor_height(next);
-    const bool lies = floor && cloth.lo.y - clear - body.r < *floor;
-    body.c =
-        glm::clamp(glm::dvec3(middle.x, lies ? cloth.hi.y + clear : cloth.lo.y - clear, middle.z), -farthest, farthest);
-    shown = {glm::vec3(body.c) - float(body.r), glm::vec3(body.c) + float(body.r)};
-  } else {
-    body.y = std::clamp(std::min(scene.lo.y, cloth.lo.y) - 0.05 * size, -farthest, farthest);
-    body.friction = friction_of_plane;
-    shown.add(glm::vec3(middle.x, body.y, middle.z));
-  }
-  if (!seen_whole(ui, shown)) ui.scene.wants_framing = true;
-  ui.slider.shown_key = "bodies[" + std::to_string(next.bodies.size()) + "]." + std::string(body_notation().back().key);
-  next.bodies.push_back(body);
-  ui.session.propose(std::move(next));
+/// A length with as many decimals as a hundredth of `size` has, so that it is read easily.
+double in_hundredths(double length, double size) {
+  const double decimals = 2 - std::round(std::log10(size)), power = std::pow(10, std::abs(decimals));
+  const double near = decimals >= 0 ? std::round(length * power) / power : std::round(length / power) * power;
+  return near + 0.0;  // no -0
+}
+
+/// "Sphere", or "Sphere 2" where there are several.
+std::string name_of_body(const std::vector<Body>& bodies, int index) {
+  const Body::Shape shape = bodies[std::size_t(index)].shape;
+  const auto same = [shape](const Body& body) { return body.shape == shape; };
+  const std::string name = shape == Body::Shape::sphere ? "Sphere" : "Plane";
+  if (std::count_if(bodies.begin(), bodies.end(), same) == 1) return name;
+  return name + " " + std::to_string(std::count_if(bodies.begin(), bodies.begin() + index + 1, same));
 }
 
 void remove_body(Ui& ui, int index) {
@@ -59,17 +45,17 @@ void remove_body(Ui& ui, int index) {
 }
 
 void body_block(Ui& ui, int index) {
-  const Body& body = ui.session.requested_preset().bodies[index];
+  const std::vector<Body>& bodies = ui.session.requested_preset().bodies;
+  const Body::Shape shape = bodies[std::size_t(index)].shape;
   const float side = ui.theme.px(22);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = ui.row_width;
-  char title[48];
-  std::snprintf(title, sizeof title, "%s %d", body.shape == Body::Shape::sphere ? "Sphere" : "Plane", index + 1);
-  draw_text(*ImGui::GetWindowDrawList(), *ui.fonts.text, {lo.x, lo.y + ui.theme.px(3)}, ui.theme.colors.text, title);
+  draw_text(*ImGui::GetWindowDrawList(), *ui.fonts.text, {lo.x, lo.y + ui.theme.px(3)}, ui.theme.colors.text,
+            name_of_body(bodies, index));
   ImGui::SetCursorScreenPos({lo.x + width - side, lo.y});
   if (quiet_button(ui, "remove", icon::trash, "remove", "Remove this body")) remove_body(ui, index);
   for (const BodyRow& row : body_notation())
-    if (shape_has(body.shape, row.key)) body_row(ui, row, index);
+    if (shape_has(shape, row.key)) body_row(ui, row, index);
 }
 
 std::vector<std::string> shipped_textures() {
@@ -122,6 +108,42 @@ void texture_row(Ui& ui) {
 
 }  // namespace
 
+void add_body(Ui& ui, Body::Shape shape) {
+  constexpr double farthest = 1e3, usual_friction = 0.5;  // m, of c and y
+  Preset next = ui.session.requested_preset();
+  const bool readable = !ui.session.rebuild.holds_present() && !ui.session.simulation->divergence();
+  const Bounds scene = scene_bounds(next), cloth = readable ? bounds(ui.session.simulation->positions()) : scene;
+  const double size = std::max(next.rows - 1, next.columns - 1) * next.L * next.initial_stretch;
+  const glm::dvec3 middle = glm::dvec3(cloth.lo + cloth.hi) / 2.0;
+  Body body;
+  body.shape = shape;
+  body.friction = usual_friction;
+  Bounds shown;
+  if (shape == Body::Shape::sphere) {
+    body.r = std::clamp(in_hundredths(0.25 * size, size), 1e-3, 100.0);
+    const double clear = 1.3 * body.r;
+    const auto floor = floor_height(next);
+    const bool lies = floor && cloth.lo.y - clear - body.r < *floor;
+    const glm::dvec3 c(middle.x, lies ? cloth.hi.y + clear : cloth.lo.y - clear, middle.z);
+    for (int k = 0; k < 3; ++k) body.c[k] = std::clamp(in_hundredths(c[k], size), -farthest, farthest);
+    shown = {glm::vec3(body.c) - float(body.r), glm::vec3(body.c) + float(body.r)};
+  } else {
+    const double y = std::min(scene.lo.y, cloth.lo.y) - 0.05 * size;
+    body.y = std::clamp(in_hundredths(y, size), -farthest, farthest);
+    shown.add(glm::vec3(middle.x, body.y, middle.z));
+  }
+  if (!seen_whole(ui, shown)) ui.scene.wants_framing = true;
+  ui.slider.shown_key = "bodies[" + std::to_string(next.bodies.size()) + "]." + std::string(body_notation().back().key);
+  next.bodies.push_back(body);
+  ui.session.propose(std::move(next));
+}
+
+std::string no_more_bodies(const Ui& ui) {
+  const Preset& preset = ui.session.requested_preset();
+  if (preset.kind != Kind::cloth) return "Bodies need a cloth; this is a mass on a spring.";
+  return preset.bodies.size() < most_bodies ? "" : "A scene has at most " + std::to_string(most_bodies) + " bodies.";
+}
+
 void view_section(Ui& ui) {
   if (!section(ui, "View")) return;
   const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
@@ -153,7 +175,7 @@ void body_sections(Ui& ui) {
     body_block(ui, k);
     ImGui::PopID();
   }
-  const bool room = ui.session.requested_preset().bodies.size() < most_bodies;
+  const bool room = no_more_bodies(ui).empty();
   if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();
   if (text_button(ui, "Add plane", false, room)) add_body(ui, Body::Shape::plane);

@@ -23,6 +23,11 @@ void integrator_row(Ui& ui);
 /// Its contents, section by section.
 void constants_sections(Ui& ui);
 void body_sections(Ui& ui);
+/// Puts a sphere under the cloth, or over a cloth that lies on a plane; a plane under all that the scene holds. The
+/// camera and the column of constants show it.
+void add_body(Ui& ui, Body::Shape shape);
+/// Why there can be no further one, a sentence; empty: there can.
+std::string no_more_bodies(const Ui& ui);
 void view_section(Ui& ui);
 /// The picked particle's variables of table B.1.
 void particle_panel(Ui& ui);

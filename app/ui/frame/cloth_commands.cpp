@@ -1,5 +1,6 @@
-// Commands for the cloth in the viewport: camera, colors, knife and wind.
+// Commands for the cloth in the viewport: camera, colors, knife, wind and bodies.
 #include "app/tools/tools.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/frame/commands.h"
 
 namespace tyglab {
@@ -26,6 +27,13 @@ std::string no_cloth(const Ui& ui) {
 
 void next_color(Ui& ui) {
   ui.color_by(next_field(ui.scene));
+}
+
+template <Body::Shape shape>
+void add(Ui& ui) {
+  ui.panels = ui.settings.layout.left = true, ui.side = Side::constants;
+  ui.settings.layout.folded.erase("Bodies");
+  add_body(ui, shape);
 }
 
 }  // namespace
@@ -70,7 +78,16 @@ std::vector<CommandRow> cloth_rows() {
        toggle_wind_arrow,
        nullptr,
        {},
-       [](const Ui& ui) { return wind_arrow_shown(ui.tools); }}};
+       [](const Ui& ui) { return wind_arrow_shown(ui.tools); }},
+      {"add_sphere", "Add a sphere", "", {}, "", "ball body new collision", add<Body::Shape::sphere>, no_more_bodies},
+      {"add_plane",
+       "Add a plane",
+       "",
+       {},
+       "",
+       "floor ground body new collision",
+       add<Body::Shape::plane>,
+       no_more_bodies}};
 }
 
 }  // namespace tyglab

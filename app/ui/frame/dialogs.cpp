@@ -60,27 +60,25 @@ void label(Ui& ui, const char* text) {
   ImGui::PopFont();
 }
 
-/// Returns whether the text changed.
+/// One that is to take keys has all of its text selected, so that what is typed replaces it. Returns whether the text
+/// changed.
 template <std::size_t N>
-bool text_field(Ui& ui, const char* id, char (&field)[N], bool focus, bool select = false) {
-  if (focus) ImGui::SetKeyboardFocusHere();
+bool text_field(Ui& ui, const char* id, char (&field)[N], bool focus) {
+  if (focus) ImGui::SetKeyboardFocusHere(), ui.dialog.selecting = field;
+  const bool select = ui.dialog.selecting == field;
   ImGui::SetNextItemWidth(-1);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
   const bool changed = ImGui::InputText(id, field, N, select ? ImGuiInputTextFlags_AutoSelectAll : 0);
   ImGui::PopStyleVar();
+  // It gets the focus in the frame after the one that asks.
+  if (select && ImGui::IsItemActive()) ui.dialog.selecting = nullptr;
   report_control(ui, id);
   return changed;
 }
 
-/// The field of the file's path. After a refusal it takes keys again, all of its text selected. Returns whether the
-/// text changed.
+/// The field of the file's path, which takes keys again after a refusal. Returns whether the text changed.
 bool path_field(Ui& ui, bool focus = false) {
-  Dialog& dialog = ui.dialog;
-  const bool select = dialog.selecting || dialog.refused;
-  const bool changed = text_field(ui, "##path", dialog.path, focus || dialog.refused, select);
-  dialog.selecting = select && !ImGui::IsItemActive();  // it gets the focus in the frame after the one that asks
-  dialog.refused = false;
-  return changed;
+  return text_field(ui, "##path", ui.dialog.path, std::exchange(ui.dialog.refused, false) || focus);
 }
 
 void refuse(Dialog& dialog, std::string reason) {
@@ -144,11 +142,11 @@ bool may_write(Ui& ui, const char* verb) {
   }
   if (!go || dialog.path[0] == 0) return false;
   if (fs::is_directory(file, ignored)) {
-    dialog.problem = file.string() + " is a folder; add a file name to it.";
+    refuse(dialog, file.string() + " is a folder; add a file name to it.");
     return false;
   }
   if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
-    dialog.problem = file.string() + " is not a regular file, so it cannot be replaced; choose another name.";
+    refuse(dialog, file.string() + " is not a regular file, so it cannot be replaced; choose another name.");
     return false;
   }
   // Browsers give a download another name where there is one of that name.
@@ -196,15 +194,14 @@ void export_dialog(Ui& ui) {
   label(ui, "File");
   if (path_field(ui, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(ui, "Export")) return;
-  const fs::path file = path_of(dialog.path);
-  close(ui);
-  ui.act([&what, file](Ui& u) {
+  ui.act([&what, file = path_of(dialog.path)](Ui& u) {
     try {
       what.write(u, file);
       hand_out(file);
+      u.dialog.kind = DialogKind::none;
       u.messages.note("Exported " + file.string());
     } catch (const std::runtime_error& error) {
-      u.messages.error(error.what());
+      refuse(u.dialog, error.what());
     }
   });
 }
@@ -220,9 +217,18 @@ void picture_dialog(Ui& ui) {
   if (!may_write(ui, "Save")) return;
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".png";
+  std::error_code ignored;
+  if (const fs::path folder = file.parent_path(); !folder.empty() && !fs::is_directory(folder, ignored))
+    return refuse(dialog, "The folder " + folder.string() + " does not exist; create it first, or choose another.");
   const PictureOrder order{file, dialog.whole_window};
   close(ui);
   ui.act([order](Ui& u) { u.picture = order; });
+}
+
+/// What makes a video of a film's images, typed in their folder.
+std::string joining_command(const Ui& ui) {
+  return "ffmpeg -framerate " + std::to_string(FilmOrder::fps) + " -i " + ui.session.document.label +
+         "_%04d.png -pix_fmt yuv420p film.mp4";
 }
 
 /// Into a folder of its own, from the present moment on.
@@ -231,9 +237,12 @@ void film_dialog(Ui& ui) {
   title(ui, "Export a film");
   wrapped(
       ui,
-      "Numbered PNG images of the cloth and its legend, 25 for each second that the window would show, however long "
-      "they take. Any video program joins them, such as ffmpeg.",
+      "Numbered PNG images of the cloth and its legend: " + std::to_string(FilmOrder::fps) +
+          " images per second of playback, however long they take to draw. Any video program joins them, for example:",
       ui.theme.colors.quiet);
+  ImGui::PushFont(ui.fonts.mono);
+  wrapped(ui, joining_command(ui), ui.theme.colors.text);
+  ImGui::PopFont();
   label(ui, "Seconds");
   bool edited = text_field(ui, "##seconds", dialog.seconds, false);
   label(ui, "Folder");
@@ -402,7 +411,8 @@ void open_dialog(Ui& ui, DialogKind kind) {
   Dialog& dialog = ui.dialog;
   dialog.kind = kind;
   dialog.opening = true;
-  dialog.overwrite = dialog.enter = dialog.path_follows = dialog.refused = dialog.selecting = false;
+  dialog.overwrite = dialog.enter = dialog.path_follows = dialog.refused = false;
+  dialog.selecting = nullptr;
   dialog.problem.clear();
   dialog.then.reset();
   set(dialog.path, "");
@@ -444,6 +454,13 @@ void show_save_problem(Ui& ui, const fs::path& file, const std::string& name, co
   set(ui.dialog.path, file.string());
   set(ui.dialog.name, name);
   ui.dialog.problem = problem;
+}
+
+void show_picture_problem(Ui& ui, const PictureOrder& order, const std::string& problem) {
+  open_dialog(ui, DialogKind::picture);
+  set(ui.dialog.path, order.file.string());
+  ui.dialog.whole_window = order.whole_window;
+  refuse(ui.dialog, problem);
 }
 
 void dialogs(Ui& ui) {

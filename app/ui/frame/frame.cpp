@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/ui/frame/panels.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/state/ui.h"
 #include "core/output/obj.h"
 
@@ -73,20 +74,27 @@ std::optional<double> direct_film(Ui& ui) {
   Session& session = ui.session;
   if (film.frame == film.count || session.simulation->divergence()) {
     ui.messages.note("Exported " + std::to_string(film.frame) + (film.frame == 1 ? " image" : " images") + " to " +
-                     film.folder.string() + ", " + std::to_string(FilmOrder::fps) + " per second.");
+                     film.folder.string() + ", " + std::to_string(FilmOrder::fps) + " per second of playback.");
     ui.film.reset();
     return std::nullopt;
   }
   if (!session.pacing.playing || session.background_steps.busy() || session.rebuild.busy()) return 0;
   const double t = session.simulation->time(), dt = session.preset().dt;
   if (film.frame == 0 || t > film.next_t + 1) film.next_t = t;  // or it has been brought elsewhere
-  if (t < film.next_t - dt / 2 && !session.asleep()) return (film.next_t - t) / session.pacing.aim();
+  if (t < film.next_t - dt / 2 && !session.asleep()) {
+    film.shown = true;
+    return (film.next_t - t) / session.pacing.aim();
+  }
+  // The user sees how far the film is, and can press what is on the screen.
+  if (!film.shown) return film.shown = true, 0;
+  film.shown = false;
   ui.picture = {film.folder / frame_name(session.document.label, film.frame, film.count, "png"), false};
   ++film.frame, film.next_t += session.pacing.aim() / FilmOrder::fps;
   return 0;
 }
 
 void draw_panels(Ui& ui) {
+  if (ui.bare()) gui::keep_pressed();  // what is over the cloth is not drawn, and must not lose its press
   SliderState& slider = ui.slider;
   slider.order = 0;
   slider.focused_seen = false;

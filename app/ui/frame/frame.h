@@ -47,6 +47,8 @@ class GuiInput {
   /// Shows the current context what one frame can hold of all that has come and not been shown yet, and notes in
   /// `input` whether anything is left. Comes before ImGui::NewFrame, and after a back end that would say otherwise.
   void feed(InputQueue& input);
+  /// In place of that, before a frame without some of its controls (Ui::bare()): all waits for the next frame.
+  void hold(InputQueue& input);
 
  private:
   /// What the present frame has been shown so far.
@@ -56,6 +58,7 @@ class GuiInput {
   };
   void take(const InputQueue& input);
   void release_keys(const InputQueue& input);
+  void tell_what_waits(InputQueue& input) const;
   bool show(const InputEvent& event, Frame& frame);
   bool show(const KeyEvent& event, Frame& frame);
   bool show(const TypedCharacter& typed, Frame& frame);

@@ -138,6 +138,16 @@ bool GuiInput::show(const PointerEvent& event, Frame& frame) {
   return true;
 }
 
+void GuiInput::tell_what_waits(InputQueue& input) const {
+  input.unshown = !waiting_.empty();
+  input.unread = !std::all_of(waiting_.begin(), waiting_.end(), is_pointers);
+}
+
+void GuiInput::hold(InputQueue& input) {
+  take(input);
+  tell_what_waits(input);
+}
+
 void GuiInput::feed(InputQueue& input) {
   take(input);
   if (std::exchange(focused_, input.focused) != input.focused) ImGui::GetIO().AddFocusEvent(input.focused);
@@ -148,8 +158,7 @@ void GuiInput::feed(InputQueue& input) {
                                      [&](const InputEvent& event) { return held_ == 0 && show(event, frame); });
   waiting_.erase(waiting_.begin(), next);
   if (waiting_.empty()) buttons_ = input.buttons, at_ = input.at;  // so that nothing lost stays
-  input.unshown = !waiting_.empty();
-  input.unread = !std::all_of(waiting_.begin(), waiting_.end(), is_pointers);
+  tell_what_waits(input);
   const bool seen = input.inside || input.focused || buttons_.any();
   gui::show_pointer(seen ? ImVec2(at_.x, at_.y) : ImVec2(-FLT_MAX, -FLT_MAX));
   for (int button = 0; button < InputQueue::most_buttons; ++button)

@@ -53,6 +53,13 @@ bool typing_takes(Ui& ui, const KeyEvent& event) {
   return true;
 }
 
+/// A film goes on under all else, so it ends first.
+bool film_takes(Ui& ui, const KeyEvent& event) {
+  if (!ui.film || event.key != GLFW_KEY_ESCAPE) return false;
+  ui.command("export_film");
+  return true;
+}
+
 bool dialog_takes(Ui& ui, const KeyEvent& event) {
   if (ui.dialog.kind == Dialog::Kind::none) return false;
   if (event.key == GLFW_KEY_ESCAPE) ui.dialog.kind = Dialog::Kind::none;
@@ -157,10 +164,10 @@ void command_for(Ui& ui, const KeyEvent& event) {
 }
 
 void take_key(Ui& ui, const KeyEvent& event) {
-  const bool taken = dialog_takes(ui, event) || palette_takes(ui, event) || help_takes(ui, event) ||
-                     methods_take(ui, event) || list_takes(ui, event) || typing_takes(ui, event) ||
-                     resolution_takes(ui, event) || slider_takes(ui, event) || tour_takes(ui, event) ||
-                     copy_details_take(ui, event) || presentation_takes(ui, event);
+  const bool taken = film_takes(ui, event) || dialog_takes(ui, event) || palette_takes(ui, event) ||
+                     help_takes(ui, event) || methods_take(ui, event) || list_takes(ui, event) ||
+                     typing_takes(ui, event) || resolution_takes(ui, event) || slider_takes(ui, event) ||
+                     tour_takes(ui, event) || copy_details_take(ui, event) || presentation_takes(ui, event);
   if (!taken) command_for(ui, event);
 }
 

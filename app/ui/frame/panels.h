@@ -55,6 +55,8 @@ void open_dialog(Ui& ui, Dialog::Kind kind);
 void ask(Ui& ui, Dialog::Kind kind, std::string question, Request then);
 /// Opens the save dialog again with what went wrong.
 void show_save_problem(Ui& ui, const std::filesystem::path& file, const std::string& name, const std::string& problem);
+/// Opens the dialog that saves an image again with what went wrong.
+void show_picture_problem(Ui& ui, const PictureOrder& order, const std::string& problem);
 /// Draws the open dialog, if any.
 void dialogs(Ui& ui);
 

@@ -52,6 +52,11 @@ inline bool scrolls_at(ImVec2 at) {
   return false;
 }
 
+/// What is pressed stays pressed through a frame that does not draw it.
+inline void keep_pressed() {
+  ImGui::KeepAliveID(ImGui::GetActiveID());
+}
+
 /// Selects all that stands in the text field which takes keys.
 inline void select_all_text() {
   ImGui::GetCurrentContext()->InputTextState.SelectAll();

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/base/text.h"
@@ -193,7 +194,9 @@ void begin_tooltip_at_pointer(UiContext& ui) {
 void end_tooltip(UiContext& ui) {
   ImGui::PopTextWrapPos();
   ui.tooltip_wrap = 0;
-  ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
+  const glm::vec2 size{ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
+  // It stands where a tooltip of the size before belongs: the next frame places it anew.
+  if (std::exchange(ui.tooltip_size, size) != size) ui.draw_by = ui.now;
   const glm::vec2 at{ImGui::GetWindowPos().x, ImGui::GetWindowPos().y};
   ui.tooltip = Box{at, at + ui.tooltip_size};
   ImGui::EndTooltip();

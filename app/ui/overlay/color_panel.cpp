@@ -1,6 +1,9 @@
 // The coloring of the cloth: the list of quantities, and the legend in the viewport's corner.
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "app/base/text.h"
@@ -90,6 +93,21 @@ std::array<std::optional<Box>, 15> legend_places(const Ui& ui) {
           in(lo, legend_short_line_size, ScreenCorner::upper_left)};
 }
 
+/// While the cloth swings the legend stays, whatever comes under it for a moment; it leaves a cloth that stays there.
+void place_legend(Ui& ui, std::span<const std::optional<Box>> places) {
+  constexpr float much = 0.25f;     // of the legend
+  constexpr double patience = 0.7;  // s
+  const std::vector<Box> parts = drawn_parts(ui);
+  const bool stands = ui.legend_place && places[*ui.legend_place];
+  const auto crowded = [&](const Box& box) {
+    return covered(box, parts) > much * (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y);
+  };
+  if (!stands || !crowded(*places[*ui.legend_place])) ui.legend_clear = ui.now;
+  if (stands && ui.session.pacing.playing && ui.now - ui.legend_clear < patience) return;
+  const auto before = std::exchange(ui.legend_place, choose_place(places, parts, ui.legend_place));
+  if (ui.legend_place != before) ui.legend_clear = ui.now;
+}
+
 }  // namespace
 
 float color_menu_width(const Ui& ui) {
@@ -113,9 +131,7 @@ void color_legend(Ui& ui) {
   const FieldColors* shown = shown_colors(ui.scene);
   if (shown == nullptr) return;
   const auto places = legend_places(ui);
-  // While the cloth swings the legend stays, whatever comes under it.
-  const bool still = !ui.session.pacing.playing || !ui.legend_place;
-  ui.legend_place = choose_place(places, still ? drawn_parts(ui) : std::vector<Box>(), ui.legend_place);
+  place_legend(ui, places);
   if (!ui.legend_place) return;
   const Box& box = *places[*ui.legend_place];
   const ImVec2 at{box.lo.x, box.lo.y}, size{box.hi.x - box.lo.x, box.hi.y - box.lo.y};

@@ -13,20 +13,25 @@ namespace tyglab {
 void message_line(Ui& ui, const Region& foot) {
   Messages& messages = ui.session.messages;
   messages.age(ui.now, ui.dialog.kind == Dialog::Kind::start);  // which shows warnings itself
+  if (ui.bare()) return;
   ui.message_box.reset();
-  const bool bare = ui.picture && !ui.picture->whole_window;
-  if (messages.list().empty() || bare) return;
+  if (messages.list().empty()) return;
   const std::size_t shown = messages.foremost(), waiting = messages.list().size() - 1;
   messages.show(shown, ui.now);
   const Message& message = messages.list()[shown];
 
-  // As high as its lines need: the first stands on the status line, others reach up over the picture's edge.
+  // As high as its lines need: the first stands on the status line, others reach up over the picture's edge, unless
+  // they would cover what is said of a divergence.
   const ImFont& font = *ui.fonts.text;
   const float pad = ui.theme.px(12), icon_width = ui.theme.px(24), above = ui.theme.px(8);
   const std::string more = waiting > 0 ? "+" + std::to_string(waiting) : "";
   const float close_width = ui.theme.px(28) + text_width(font, more);
   const std::string words = capitalised(ui.input.by_touch ? for_fingers(message.text) : message.text);
-  const std::string text = in_lines(font, words, foot.size.x - 2 * pad - icon_width - close_width);
+  const float room = foot.size.x - 2 * pad - icon_width - close_width;
+  const std::string lines = in_lines(font, words, room);
+  const bool fits = lines.find('\n') == std::string::npos;
+  const bool shortened = !fits && (ui.session.simulation->divergence() || ui.copy_details);
+  const std::string text = shortened ? fitted(font, words, room) : lines;
   const float height = std::max(std::ceil(height_of(font, text) + 2 * above), foot.size.y);
   const ImVec2 lo{foot.at.x, foot.at.y + foot.size.y - height}, hi{lo.x + foot.size.x, lo.y + height};
   ui.message_box = {{lo.x, lo.y}, {hi.x, hi.y}};
@@ -47,6 +52,7 @@ void message_line(Ui& ui, const Region& foot) {
     draw.AddRectFilled(lo, {hi.x, lo.y + ui.theme.px(2)}, color);
     dismissed = gui::press_area("dismiss", {foot.size.x, height});
     report_control(ui, "dismiss");
+    if (shortened) tooltip(ui, gui::item_id(), words);
     const ImU32 quiet = ImGui::IsItemHovered() ? c.text : c.quiet;
     const float y = std::round(lo.y + (height - height_of(font, text)) / 2);
     draw_text(draw, font, {lo.x + pad, y}, color,

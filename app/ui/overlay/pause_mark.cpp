@@ -122,7 +122,8 @@ void hidden_panels_mark(Ui& ui, ImDrawList& draw) {
 void film_mark(Ui& ui, ImDrawList& draw) {
   if (!ui.film) return;
   const std::string done = std::to_string(ui.film->frame) + " of " + std::to_string(ui.film->count);
-  if (corner_button(ui, draw, "stop_film", "Film: image " + done + " · Stop")) ui.command("export_film");
+  const std::string stop = ui.input.by_touch ? "Stop" : "Stop (Esc)";
+  if (corner_button(ui, draw, "stop_film", "Film: image " + done + " · " + stop)) ui.command("export_film");
 }
 
 }  // namespace tyglab

@@ -124,7 +124,7 @@ void pictures(Ui& ui, ImDrawList& draw) {
 /// round, so that no arrow runs over a number.
 void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   enum Layer : int { arrows, pointer, fixed, count };
-  const bool bare = ui.picture && !ui.picture->whole_window;
+  const bool bare = ui.bare();
   const float margin = ui.theme.px(16), top = region.at.y + ui.theme.px(12);
   const Box row{{region.at.x + margin, top}, {region.at.x + region.size.x - margin, top + ui.theme.px(26)}};
   // In a picture that is saved the legend stands as it was shown.
@@ -184,7 +184,7 @@ void viewport_panel(Ui& ui, const Region& region) {
   constexpr float usual = 0.84f, presented = 0.94f;
   ui.viewport.filled = ui.presenting ? presented : usual;
   ui.marks_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
-  ui.viewport.covers.clear();
+  if (!ui.bare()) ui.viewport.covers.clear();  // what is not drawn for an image is on the screen all the same
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   pictures(ui, draw);

@@ -93,7 +93,7 @@ struct Dialog {
   char name[128] = "";
   std::string problem;                    ///< shown in it
   bool refused = false;                   ///< what was given: the path's field is to take keys again
-  bool selecting = false;                 ///< all of its text, once it takes them
+  const char* selecting = nullptr;        ///< the field of which all text is to be selected, once it takes keys
   bool enter = false;                     ///< Enter was pressed in this frame
   bool path_follows = false;              ///< the path is made from the name until it is edited
   bool overwrite = false;                 ///< the file exists, and the user is asked
@@ -176,6 +176,7 @@ struct FilmOrder {
   static constexpr int fps = 25;
   std::filesystem::path folder;
   std::int64_t count = 0, frame = 0;  ///< images, and those that have been ordered
+  bool shown = true;                  ///< the window has been drawn with its controls since the last image
   double next_t = 0;                  ///< s, simulated, of the next one
 };
 
@@ -240,6 +241,7 @@ struct Ui : UiContext {
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
   std::optional<CopyDetails> copy_details;
   std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
+  double legend_clear = 0;                               ///< s, when the cloth last left the legend most of its place
   glm::ivec2 divided{1};                                 ///< columns and rows of the pictures in the last frame
   bool banner_over_views = false;                        ///< it needs the view buttons' place: they are not there
   std::optional<Viewport::Box> message_box;              ///< of the message that was shown last frame, pixels
@@ -263,6 +265,8 @@ struct Ui : UiContext {
   bool scale_changed = true;  ///< fonts are to be built again
   std::vector<std::function<void(Ui&)>> actions;
 
+  /// Whether this frame becomes an image of the viewport, without controls, and is not shown.
+  bool bare() const { return picture && !picture->whole_window; }
   /// Asks for something to be done before the next frame is drawn.
   void act(std::function<void(Ui&)> action) { actions.push_back(std::move(action)); }
   /// The same of a command, by the id of its row (commands.h).
