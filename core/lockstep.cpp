@@ -60,10 +60,7 @@ Preset copied_preset(const Preset& original, std::span<const Difference> differe
 }
 
 void Lockstep::add(Simulation& original, std::vector<Difference> differences, int threads) {
-  if (copies_.size() >= most)
-    throw PresetError("There are " + std::to_string(most) + " copies already; remove one first.");
-  if (original.lattice().size() > largest)
-    throw PresetError("A cloth of more than " + std::to_string(largest) + " particles is too large to be copied.");
+  check_room(original);
   const Snapshot now = original.snapshot();
   auto copy = copied(original, now, differences, threads);
   original.restore(now);
@@ -71,6 +68,22 @@ void Lockstep::add(Simulation& original, std::vector<Difference> differences, in
   for (Copy& other : copies_)
     if (!other.simulation->divergence()) other.simulation->restore(other.simulation->snapshot());
   copies_.push_back({std::move(differences), std::move(copy), {}, free_seat()});
+}
+
+void Lockstep::put_back(const Simulation& original, std::size_t n, std::vector<Difference> differences,
+                        std::size_t seat, Cost cost, const Snapshot& then, int threads) {
+  check_room(original);
+  auto copy = copied(original, then, differences, threads);
+  const bool taken = std::any_of(copies_.begin(), copies_.end(), [&](const Copy& other) { return other.seat == seat; });
+  copies_.insert(copies_.begin() + std::ptrdiff_t(std::min(n, copies_.size())),
+                 {std::move(differences), std::move(copy), cost, taken ? free_seat() : seat});
+}
+
+void Lockstep::check_room(const Simulation& original) const {
+  if (copies_.size() >= most)
+    throw PresetError("There are " + std::to_string(most) + " copies already; remove one first.");
+  if (original.lattice().size() > largest)
+    throw PresetError("A cloth of more than " + std::to_string(largest) + " particles is too large to be copied.");
 }
 
 std::size_t Lockstep::free_seat() const {

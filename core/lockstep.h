@@ -43,6 +43,9 @@ class Lockstep {
   /// cloths continue with equal bits; the hand releases. Throws PresetError (a wrong value, too many copies, a cloth
   /// that is too large, another lattice) and EngineError.
   void add(Simulation& original, std::vector<Difference> differences, int threads = 1);
+  /// Puts a copy back in its former place, seat and motion; `then` must fit. Throws as add() does.
+  void put_back(const Simulation& original, std::size_t n, std::vector<Difference> differences, std::size_t seat,
+                Cost cost, const Snapshot& then, int threads = 1);
   void remove(std::size_t n) { copies_.erase(copies_.begin() + std::ptrdiff_t(n)); }
   void clear() { copies_.clear(); }
   bool empty() const { return copies_.empty(); }
@@ -66,6 +69,7 @@ class Lockstep {
   std::size_t bytes() const;
 
  private:
+  void check_room(const Simulation& original) const;
   std::size_t free_seat() const;
   std::vector<Copy> copies_;
 };

@@ -22,7 +22,7 @@ ViewOptions view_of(const Scene& scene, const Simulation& cloth, glm::ivec2 size
   scene.effects.apply(view);
   view.line_width = scene.scale * 1.6f;
   view.point_size = scene.scale * 9;
-  view.longest_edge = cloth.divergence() ? float(calm_stretch * cloth.preset().L) : 0.f;
+  view.longest_edge = float(longest_drawn_edge(cloth));
   view.every = drawn_every(cloth.lattice(), size.x, size.y);
   return view;
 }
@@ -36,6 +36,10 @@ void count(FrameCosts& costs, const RenderWork& work) {
 }
 
 }  // namespace
+
+double longest_drawn_edge(const Simulation& cloth) {
+  return cloth.divergence() ? calm_stretch * cloth.preset().L : 0;
+}
 
 ClothRenderer& ClothViews::renderer(Scene& scene, int tile) {
   if (tile == 0) return *scene.renderer;

@@ -13,6 +13,10 @@ namespace tyglab {
 
 struct Scene;
 
+/// The longest edge that is drawn of a cloth, m; 0: all are. Particles that have flown off a diverged one would cover
+/// it.
+double longest_drawn_edge(const Simulation& cloth);
+
 class ClothViews {
  public:
   /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window. Without an OpenGL context

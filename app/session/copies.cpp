@@ -90,6 +90,73 @@ bool awaits_programs(Session& session, const std::vector<Difference>& difference
   return true;
 }
 
+/// All that brings a copy back.
+CopyChange remembered(const Session& session, std::size_t n) {
+  const Copies& copies = session.copies;
+  const Lockstep::Copy& copy = copies.lockstep[n];
+  return {copy.differences,
+          n,
+          copy.seat,
+          copies.reference == int(n),
+          copy.cost,
+          copy.simulation->divergence().has_value(),
+          std::make_shared<const Snapshot>(copy.simulation->snapshot())};
+}
+
+/// Stores how to undo the removal of a copy, which is still there, or its addition.
+void record(Session& session, const char* what, std::size_t n, bool removal) {
+  CopyChange change = remembered(session, n);
+  if (!removal) change.motion.reset();
+  HistoryEntry entry{session.requested_preset(), session.copies.t, what + name_of_cloth(session, int(n)) + ")"};
+  entry.copy = std::make_shared<const CopyChange>(std::move(change));
+  session.history.record(std::move(entry), 0);
+}
+
+void take_away(Session& session, std::size_t n) {
+  Copies& copies = session.copies;
+  copies.lockstep.remove(n);
+  ++session.counts.copies;
+  if (copies.reference == int(n)) copies.reference = Copies::original;
+  if (copies.reference > int(n)) --copies.reference;
+  assert(copies.reference >= Copies::original && copies.reference < int(copies.lockstep.size()));
+  copies.forget();
+  ++session.counts.hands, ++session.counts.cloths;
+}
+
+/// Makes the steps that a copy has missed, if that is quick; otherwise it starts from the original. Returns whether it
+/// has its own motion.
+bool catch_up(Session& session, const CopyChange& change, std::size_t n) {
+  constexpr double quick_s = 0.5;
+  Copies& copies = session.copies;
+  Simulation& copy = *copies.lockstep[n].simulation;
+  const double missed = copies.t - copy.time(), ahead = 0.5 * copy.preset().dt;
+  if (change.diverged && missed > -ahead) copy.advance(1);
+  if (copy.divergence()) return true;
+  if (missed < -ahead || missed * change.cost.per_second() > quick_s) {
+    copy.restore(session.simulation->snapshot());
+    return false;
+  }
+  copies.lockstep.follow(copies.t);
+  return true;
+}
+
+/// Returns whether the copy has its own motion again.
+bool put_back(Session& session, const CopyChange& change) {
+  Copies& copies = session.copies;
+  if (session.simulation->held()) apply_to_all(session, edit::Release{});
+  const bool first = copies.lockstep.empty(), fits = session.simulation->fits(*change.motion);
+  const Snapshot now = fits ? *change.motion : session.simulation->snapshot();
+  const std::size_t n = std::min(change.index, copies.lockstep.size());
+  // Without copies nobody has counted on past a divergence.
+  if (first) copies.t = session.simulation->time();
+  copies.lockstep.put_back(*session.simulation, n, change.differences, change.seat, change.cost, now, session.threads);
+  if (copies.reference >= int(n)) ++copies.reference;
+  if (change.reference) copies.reference = int(n);
+  copies.forget();
+  ++session.counts.hands, ++session.counts.cloths, ++session.counts.copies_added;
+  return fits && catch_up(session, change, n);
+}
+
 void add_now(Session& session, const std::vector<Difference>& differences, bool as_reference) {
   Copies& copies = session.copies;
   settle(session);
@@ -99,6 +166,7 @@ void add_now(Session& session, const std::vector<Difference>& differences, bool 
     return session.messages.error(error.what());
   }
   assert(!copies.lockstep.empty() && copies.lockstep.size() <= Lockstep::most);
+  record(session, "new copy (", copies.lockstep.size() - 1, false);
   if (as_reference) copies.reference = int(copies.lockstep.size()) - 1;
   copies.t = session.simulation->time();
   copies.forget();
@@ -184,16 +252,29 @@ void poll_copies(Session& session) {
 }
 
 void remove_copy(Session& session, std::size_t n) {
-  Copies& copies = session.copies;
-  if (n >= copies.lockstep.size()) return;
+  if (n >= session.copies.lockstep.size()) return;
   settle(session);
-  copies.lockstep.remove(n);
-  ++session.counts.copies;
-  if (copies.reference == int(n)) copies.reference = Copies::original;
-  if (copies.reference > int(n)) --copies.reference;
-  assert(copies.reference >= Copies::original && copies.reference < int(copies.lockstep.size()));
-  copies.forget();
-  ++session.counts.hands, ++session.counts.cloths;
+  record(session, "removal of the copy (", n, true);
+  take_away(session, n);
+}
+
+CopyChange undo_copy_change(Session& session, const CopyChange& change, std::string& said) {
+  settle(session);
+  Copies& copies = session.copies;
+  if (change.motion) {
+    if (!put_back(session, change)) said += ". The copy starts from the present cloth";
+    CopyChange added = change;
+    added.motion.reset();
+    return added;
+  }
+  for (std::size_t n = 0; n < copies.lockstep.size(); ++n)
+    if (copies.lockstep[n].seat == change.seat) {
+      CopyChange removed = remembered(session, n);
+      take_away(session, n);
+      return removed;
+    }
+  said += ". The copy had gone already";
+  return change;
 }
 
 bool put_away_copies(Session& session) {

@@ -13,6 +13,7 @@
 namespace tyglab {
 
 struct Session;
+struct CopyChange;
 
 struct Copies {
   enum class Quantity { distance, energy };
@@ -67,6 +68,9 @@ void add_copy(Session& session, const std::vector<Difference>& differences, bool
 /// Called in every frame: adds the copy whose programs have been built, if one is awaited.
 void poll_copies(Session& session);
 void remove_copy(Session& session, std::size_t n);
+/// Undoes what an action has done with a copy: takes away what it added, puts back what it removed. Returns what would
+/// undo that in turn, and adds to `said` what is not as before. Throws PresetError and EngineError.
+CopyChange undo_copy_change(Session& session, const CopyChange& change, std::string& said);
 /// Removes all of them; returns whether there were any.
 bool put_away_copies(Session& session);
 /// Applies the edits and events of the original to the copies.

@@ -14,8 +14,10 @@ namespace {
 
 std::size_t state_bytes(const std::vector<HistoryEntry>& list) {
   std::size_t total = 0;
-  for (const HistoryEntry& entry : list)
+  for (const HistoryEntry& entry : list) {
     if (entry.state) total += entry.state->bytes();
+    if (entry.copy && entry.copy->motion) total += entry.copy->motion->bytes();
+  }
   return total;
 }
 

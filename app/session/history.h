@@ -7,10 +7,23 @@
 #include <string>
 #include <vector>
 
+#include "core/lockstep.h"
+#include "core/model/difference.h"
 #include "core/model/preset.h"
 #include "core/simulation.h"
 
 namespace tyglab {
+
+/// A copy that an action added or removed.
+struct CopyChange {
+  std::vector<Difference> differences;
+  std::size_t index = 0, seat = 0;
+  bool reference = false;  ///< distances were measured from it
+  Lockstep::Cost cost{};
+  bool diverged = false;
+  /// Of a copy that was removed: its motion until then. Null: it was added.
+  std::shared_ptr<const Snapshot> motion = nullptr;
+};
 
 /// The state that is restored when an action is undone or redone.
 struct HistoryEntry {
@@ -20,6 +33,7 @@ struct HistoryEntry {
   /// For an action that changed the motion itself: the cloth at `t`. Null: the motion continues unchanged.
   std::shared_ptr<const Snapshot> state = nullptr;
   bool too_large = false;  ///< the state should be here, but is larger than all that may be kept
+  std::shared_ptr<const CopyChange> copy = nullptr;  ///< null: the action was not about a copy
 };
 
 class History {

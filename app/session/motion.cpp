@@ -1,6 +1,8 @@
 #include "app/session/motion.h"
 
 #include <cassert>
+#include <memory>
+#include <new>
 
 #include "app/base/text.h"
 #include "app/session/session.h"
@@ -71,6 +73,27 @@ bool take_back(Session& session, const Preset& preset) {
   return apply_edit(session, edit::Change{preset});
 }
 
+namespace {
+
+/// Undoes or redoes what was done with a copy; the cloth itself and its constants stay as they are.
+void take_copy_from_history(Session& session, bool backwards, const std::string& what, const CopyChange& change) {
+  if (session.rebuild.busy())
+    return session.messages.note("Wait until the cloth has been built, then undo the " + what + ".");
+  try {
+    std::string said = (backwards ? "Undone: " : "Redone: ") + what;
+    HistoryEntry now{session.requested_preset(), session.copies.t, what};
+    now.copy = std::make_shared<const CopyChange>(undo_copy_change(session, change, said));
+    session.history.take(backwards, std::move(now));
+    session.messages.note(said + ".");
+  } catch (const std::bad_alloc&) {
+    session.messages.error("There is not enough memory for that copy. Nothing was changed.");
+  } catch (const std::exception& error) {
+    session.messages.error(error.what());
+  }
+}
+
+}  // namespace
+
 void take_from_history(Session& session, bool backwards) {
   const HistoryEntry* entry = session.history.next(backwards);
   if (entry == nullptr)
@@ -78,6 +101,7 @@ void take_from_history(Session& session, bool backwards) {
   settle(session);
   const Preset present = session.requested_preset();
   const std::string what = session.history.what(backwards, present);
+  if (const auto copy = entry->copy) return take_copy_from_history(session, backwards, what, *copy);
   if (entry->too_large)
     return session.messages.note("The " + what +
                                  " cannot be undone: no earlier states are kept of a cloth this large.");

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "app/session/copies.h"
 #include "app/session/motion.h"
 #include "app/session/session.h"
 #include "tests/support/scenes.h"
@@ -182,6 +183,94 @@ TEST_CASE("rewinding past a change says that it stays, and Ctrl+Z takes it back"
   session.messages = Messages();
   REQUIRE(rewind_and_say_what_stays(session));
   CHECK(session.messages.list().empty());
+}
+
+/// Steps of the cloth with its copies.
+void go_on(Session& session, int steps) {
+  session.simulation->advance(steps);
+  copies_follow(session, 0);
+}
+
+glm::dvec3 corner_of_copy(const Session& session, std::size_t n) {
+  return session.copies.lockstep[n].simulation->position(7, 0);
+}
+
+TEST_CASE("a copy that was removed is brought back with its motion, and nothing else is undone") {
+  for (const int meanwhile : {0, 20}) {
+    CAPTURE(meanwhile);
+    Session session = moving_cloth(), control = moving_cloth();
+    for (Session* each : {&session, &control}) {
+      set_k_s(*each, 60);
+      restart(*each);
+      add_copy(*each, {{&Preset::k_s, 80.0}}, false);
+      add_copy(*each, {{&Preset::k_s, 20.0}}, true);
+      go_on(*each, 50);
+    }
+    remove_copy(session, 0);
+    CHECK(session.copies.reference == 0);
+    for (Session* each : {&session, &control}) go_on(*each, meanwhile);
+    const double t = session.simulation->time();
+    take_from_history(session, true);
+    CHECK(said(session, "Undone: removal of the copy (k_s = 80)."));
+    REQUIRE(session.copies.lockstep.size() == 2);
+    CHECK(session.copies.reference == 1);
+    CHECK(settings_of_cloth(session, 0) == "k_s = 80");
+    CHECK(session.simulation->time() == t);
+    CHECK(session.preset().k_s == 60);
+    for (const std::size_t n : {0, 1}) CHECK(corner_of_copy(session, n) == corner_of_copy(control, n));
+    for (Session* each : {&session, &control}) go_on(*each, 30);
+    for (const std::size_t n : {0, 1}) CHECK(corner_of_copy(session, n) == corner_of_copy(control, n));
+
+    take_from_history(session, false);
+    CHECK(said(session, "Redone: removal of the copy (k_s = 80)."));
+    CHECK(session.copies.lockstep.size() == 1);
+    take_from_history(session, true);
+    REQUIRE(session.copies.lockstep.size() == 2);
+    CHECK(corner_of_copy(session, 0) == corner_of_copy(control, 0));
+  }
+}
+
+TEST_CASE("a copy that was added is taken away by an undo, and a redo brings it back") {
+  Session session = moving_cloth();
+  set_k_s(session, 60);
+  add_copy(session, {{&Preset::k_s, 80.0}}, true);
+  go_on(session, 30);
+  const glm::dvec3 x = corner_of_copy(session, 0);
+  take_from_history(session, true);
+  CHECK(said(session, "Undone: new copy (k_s = 80)."));
+  CHECK(session.copies.lockstep.empty());
+  CHECK(session.preset().k_s == 60);
+  take_from_history(session, false);
+  REQUIRE(session.copies.lockstep.size() == 1);
+  CHECK(session.copies.reference == 0);
+  CHECK(corner_of_copy(session, 0) == x);
+  take_from_history(session, true);
+  take_from_history(session, true);
+  CHECK(session.preset().k_s == 50);
+  CHECK(said(session, "Undone: k_s 60 → 50 N/m."));
+}
+
+TEST_CASE("a copy that had diverged comes back so; one whose cloth is elsewhere by now starts from that") {
+  Session session = moving_cloth();
+  add_copy(session, {{&Preset::k_s, 1e6}}, false);
+  go_on(session, 500);
+  REQUIRE(session.copies.lockstep[0].simulation->divergence());
+  remove_copy(session, 0);
+  go_on(session, 500);
+  take_from_history(session, true);
+  REQUIRE(session.copies.lockstep.size() == 1);
+  CHECK(session.copies.lockstep[0].simulation->divergence());
+
+  Session back = moving_cloth();
+  const Snapshot then = back.simulation->snapshot();
+  add_copy(back, {{&Preset::k_s, 80.0}}, false);
+  go_on(back, 100);
+  remove_copy(back, 0);
+  back.simulation->restore(then);
+  take_from_history(back, true);
+  REQUIRE(back.copies.lockstep.size() == 1);
+  CHECK(corner_of_copy(back, 0) == back.simulation->position(7, 0));
+  CHECK(said(back, "The copy starts from the present cloth."));
 }
 
 TEST_CASE("states are kept within their memory, and what is too large says so") {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "app/base/glfw_keys.h"
 #include "app/base/text.h"
@@ -156,6 +158,49 @@ bool ring_without_middle(const test::NullUi& window) {
   return count > 0 && !picture.contains(sum / count);
 }
 
+/// The middle of the ring that marks a divergence; none where there is none.
+std::optional<glm::vec2> ring_of(const test::NullUi& window) {
+  const Box banner = *window.ui.placing.find("banner");
+  const Box* label = window.ui.placing.find("ring");
+  glm::vec2 lo{1e9f}, hi{-1e9f};
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int n = 0; n < data.CmdListsCount; ++n) {
+    if (std::string(data.CmdLists[n]->_OwnerName) != "viewport") continue;
+    for (const ImDrawVert& corner : data.CmdLists[n]->VtxBuffer) {
+      const glm::vec2 at(corner.pos.x, corner.pos.y);
+      if (corner.col != window.ui.theme.colors.danger || overlap(banner, {at - 4.f, at + 4.f})) continue;
+      if (label == nullptr || !label->contains(at)) lo = glm::min(lo, at), hi = glm::max(hi, at);
+    }
+  }
+  if (lo.x > hi.x) return std::nullopt;
+  return (lo + hi) / 2.f;
+}
+
+TEST_CASE("the ring stands on the drawn cloth where it diverged, wherever the spring's ends have flown to") {
+  int rings = 0;
+  for (const double dt : {0.0022, 0.0023, 0.0024, 0.00252, 0.0026, 0.0028, 0.003, 0.0035, 0.004}) {
+    CAPTURE(dt);
+    test::NullUi window({.preset = "hanging", .with = [&](Preset& preset) { preset.dt = dt; }});
+    explode(window);
+    window.frames(2);
+    const auto ring = ring_of(window);
+    if (!ring) continue;
+    ++rings;
+    const Divergence d = *window.cloth().divergence();
+    const PositionView x = window.cloth().positions();
+    const double L = window.preset().L;
+    float nearest = 1e9f;  // px, of the neighborhood's particles that the picture shows, to the ring's middle
+    for (int i = std::max(0, d.i - 7); i <= std::min(x.rows - 2, d.i + 7); ++i)
+      for (int j = std::max(0, d.j - 7); j <= std::min(x.columns - 2, d.j + 7); ++j)
+        if (glm::distance(x.at(i, j), x.at(i, j + 1)) <= 5 * L && glm::distance(x.at(i, j), x.at(i + 1, j)) <= 5 * L)
+          nearest = std::min({nearest, glm::distance(window.pixel_of(i, j), *ring),
+                              glm::distance(window.pixel_of(i, j + 1), *ring),
+                              glm::distance(window.pixel_of(i + 1, j), *ring)});
+    CHECK(nearest < 40);
+  }
+  CHECK(rings >= 3);
+}
+
 TEST_CASE("the banner has a strip of its own: no mark covers where the cloth is framed, and a replay is offered") {
   struct Case {
     glm::ivec2 size;
@@ -278,6 +323,18 @@ TEST_CASE("an undo that leads to what diverges, too, is no way out") {
   window.key(GLFW_KEY_R);
   explode(window);
   CHECK_FALSE(window.sees("viewport.Undo_k_s_and_restart"));  // to 1520
+  CHECK(window.sees("viewport.Implicit_Euler"));
+}
+
+TEST_CASE("an undo is offered only where the former value is stable in linear theory") {
+  test::NullUi window;
+  window.type_value("dt", "1");
+  explode(window);
+  CHECK(window.sees("viewport.Undo_dt_and_restart"));
+  window.type_value("k_s", "60");
+  window.key(GLFW_KEY_R);
+  explode(window);
+  CHECK_FALSE(window.sees("viewport.Undo_k_s_and_restart"));  // to 50, which diverges at that dt as well
   CHECK(window.sees("viewport.Implicit_Euler"));
 }
 

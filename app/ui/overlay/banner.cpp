@@ -37,6 +37,11 @@ std::optional<Preset> before_last_change(const Ui& ui) {
   return last->constants;
 }
 
+/// Whether the linear theory says that a cloth with the former constants stays well, and no worse than now.
+bool undo_helps(const Preset& before, const Preset& now) {
+  return over_limit(before) <= std::min(1.0, over_limit(now)) && !springs_too_weak(before);
+}
+
 const Advice& advice_for(const Preset& then, Ui& ui) {
   Advice& advice = ui.advice;
   const Preset& now = ui.session.preset();
@@ -49,7 +54,7 @@ const Advice& advice_for(const Preset& then, Ui& ui) {
               .springs_too_weak = springs_too_weak(now),
               .suggested_fix = suggested_fix(now),
               .slower = with_advised_dt(now),
-              .undo_helps = before && !same_model(*before, then) && over_limit(*before) <= over_limit(now)};
+              .undo_helps = before && !same_model(*before, then) && undo_helps(*before, now)};
   return advice;
 }
 

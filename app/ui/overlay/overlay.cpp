@@ -60,17 +60,66 @@ void ring_label(Ui& ui, ImDrawList& draw, glm::vec2 at, float radius_at_1, const
 
 }  // namespace
 
+namespace {
+
+/// Whether the cell below and right of a particle is drawn whole.
+bool cell_drawn(const Simulation& cloth, int i, int j, double longest) {
+  if (!cloth.lattice().contains(i, j) || !cloth.lattice().contains(i + 1, j + 1)) return false;
+  const PositionView x = cloth.positions();
+  const auto edge = [&](int a, int b, int c, int d) { return glm::distance(x.at(a, b), x.at(c, d)) <= longest; };
+  return edge(i, j, i, j + 1) && edge(i, j, i + 1, j) && edge(i + 1, j, i + 1, j + 1) && edge(i, j + 1, i + 1, j + 1);
+}
+
+/// The particle of the drawn cloth that is nearest to a site by rows and columns; none where that would be elsewhere.
+std::optional<Pins::Site> nearest_drawn(const Simulation& cloth, Pins::Site site, double longest) {
+  constexpr int most = 6;  // rows or columns away
+  std::optional<Pins::Site> nearest;
+  int least = most * most + 1;
+  for (int i = site.i - most; i <= site.i + most; ++i)
+    for (int j = site.j - most; j <= site.j + most; ++j) {
+      const int far = (i - site.i) * (i - site.i) + (j - site.j) * (j - site.j);
+      if (far >= least || !cloth.lattice().contains(i, j)) continue;
+      const bool drawn = cell_drawn(cloth, i, j, longest) || cell_drawn(cloth, i - 1, j, longest) ||
+                         cell_drawn(cloth, i, j - 1, longest) || cell_drawn(cloth, i - 1, j - 1, longest);
+      if (drawn) nearest = Pins::Site{i, j}, least = far;
+    }
+  return nearest;
+}
+
+/// Where a divergence is seen.
+struct SeenSpring {
+  ImVec2 from, to;
+  bool beside = false;  ///< it is not drawn itself, and this is the drawn cloth beside it
+};
+
+std::optional<SeenSpring> seen_spring(Ui& ui, const Divergence& of) {
+  const Simulation& cloth = *ui.session.simulation;
+  const Pins::Site a{of.i, of.j}, b{of.i + of.di, of.j + of.dj};
+  if (!cloth.lattice().contains(a.i, a.j) || !cloth.lattice().contains(b.i, b.j)) return std::nullopt;
+  const double longest = longest_drawn_edge(cloth);
+  const PositionView x = cloth.positions();
+  const bool spring = of.di != 0 || of.dj != 0;
+  // Of a spring whose ends have flown apart, the middle may be anywhere. A particle alone may have flown off as well.
+  const bool drawn = longest == 0 || (spring ? glm::distance(x.at(a.i, a.j), x.at(b.i, b.j)) <= longest
+                                             : nearest_drawn(cloth, a, longest) == a);
+  const std::optional<Pins::Site> near = drawn ? a : nearest_drawn(cloth, a, longest);
+  if (!near) return std::nullopt;
+  const auto from = particle_on_screen(ui, 0, *near), to = drawn ? particle_on_screen(ui, 0, b) : from;
+  if (!from || !to) return std::nullopt;
+  return SeenSpring{*from, *to, !drawn};
+}
+
+}  // namespace
+
 void divergence_mark(Ui& ui, ImDrawList& draw) {
   const Session& session = ui.session;
   const auto& now = session.simulation->divergence();
   const Divergence* of = session.replay ? &session.replay->of : now ? &*now : nullptr;
   if (of == nullptr || session.preset().kind != Kind::cloth) return;
-  const Lattice& lattice = session.simulation->lattice();
-  if (!lattice.contains(of->i, of->j) || !lattice.contains(of->i + of->di, of->j + of->dj)) return;
-  const auto from = particle_on_screen(ui, 0, {of->i, of->j});
-  const auto to = particle_on_screen(ui, 0, {of->i + of->di, of->j + of->dj});
-  if (!from || !to) return;
-  const ImVec2 middle{(from->x + to->x) / 2, (from->y + to->y) / 2};
+  const auto seen = seen_spring(ui, *of);
+  if (!seen) return;
+  const auto& [from, to, beside] = *seen;
+  const ImVec2 middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
   // A spring that has left the picture is named by the banner; a ring that buttons or the banner cut off says nothing.
   constexpr float least = 11, most = 40, line = 4;  // px at scale 1
   const glm::vec2 lo = ui.viewport.origin(0), hi = lo + ui.viewport.size(), at(middle.x, middle.y);
@@ -83,14 +132,17 @@ void divergence_mark(Ui& ui, ImDrawList& draw) {
       return mark != nullptr && overlap(*mark, box);
     });
   };
-  const float half = std::hypot(to->x - from->x, to->y - from->y) / 2 / ui.theme.scale;
+  const float half = std::hypot(to.x - from.x, to.y - from.y) / 2 / ui.theme.scale;
   float radius = std::clamp(half + 8, least, most);
   if (cut_off(radius)) radius = least;
   if (cut_off(radius)) return;
   draw.PushClipRect(vec(lo), vec(hi), true);
   ring(ui, draw, middle, radius, ui.theme.colors.danger, 3);
   draw.PopClipRect();
-  ring_label(ui, draw, at, radius + line, session.replay ? "diverges first" : "diverged first");
+  ring_label(ui, draw, at, radius + line,
+             session.replay ? "diverges first"
+             : beside       ? "diverged first beside this"
+                            : "diverged first");
 }
 
 void picked_overlay(Ui& ui, ImDrawList& draw) {

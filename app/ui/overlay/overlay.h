@@ -35,7 +35,8 @@ void particle_arrows(Ui& ui, ImDrawList& draw, int tile, ImVec2 from);
 void wind_overlay(Ui& ui, ImDrawList& draw);
 /// The picked particle in every picture, with its arrows.
 void picked_overlay(Ui& ui, ImDrawList& draw);
-/// A ring round what diverges first: while its last steps are replayed, and once it has.
+/// A ring round what diverges first: while its last steps are replayed, and once it has. Once the spring itself is too
+/// long to be drawn, round the drawn cloth beside it.
 void divergence_mark(Ui& ui, ImDrawList& draw);
 /// The pointer with its tool, and the particle that it would take.
 void pointer_overlay(Ui& ui, ImDrawList& draw);

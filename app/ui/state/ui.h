@@ -113,7 +113,7 @@ struct Advice {
   double largest_dt = 0;          ///< s, that was stable then
   bool springs_too_weak = false;  ///< now
   std::optional<Preset> suggested_fix, slower;
-  bool undo_helps = false;  ///< `before` are no nearer to what diverges
+  bool undo_helps = false;  ///< the linear theory says that `before` are stable
 };
 
 /// Why a copy has diverged, as it is told.
