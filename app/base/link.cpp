@@ -142,6 +142,7 @@ LinkedPreset read_link(std::string_view text) {
   const std::string framed = hash > 0 ? framed_preset(text.substr(0, hash), text, alone) : std::string();
   const bool file = text.substr(0, std::min(text.find('?'), hash)).ends_with(".json");
   if (file || (hash > 0 && framed.empty() && hash + 1 >= text.size())) refuse_address(text);
+  if (text == "#") fail(text, "names neither a preset nor a constant.");
   LinkedPreset linked{framed.empty() ? default_preset : framed, {}};
   std::string_view rest = text.substr(std::min(hash + 1, text.size()));
   for (bool first = true; !rest.empty(); first = false) {
@@ -154,6 +155,10 @@ LinkedPreset read_link(std::string_view text) {
     } else if (part.find('=') == std::string::npos || part.starts_with('=')) {
       fail(text, "has a part that is not KEY=VALUE: " + cited(part) + ".");
     } else {
+      const std::string key = part.substr(0, part.find('='));
+      const auto same = [&](const std::string& other) { return other.substr(0, other.find('=')) == key; };
+      if (std::any_of(linked.settings.begin(), linked.settings.end(), same))
+        fail(text, "sets " + cited(key) + " twice; keep one of them.");
       linked.settings.push_back(part);
     }
   }

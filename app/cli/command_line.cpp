@@ -75,14 +75,35 @@ std::string command_problem(const CLI::App& program, std::span<const std::string
   return typed + ": needs one of its commands: " + joined(command_names(*at)) + ".";
 }
 
+/// The command that was typed.
+const CLI::App& parsed_command(const CLI::App& program) {
+  const CLI::App* at = &program;
+  for (auto next = at->get_subcommands(); !next.empty(); next = at->get_subcommands()) at = next.front();
+  return *at;
+}
+
+/// " Did you mean --seconds?", of the options of a command; empty if none is near.
+std::string meant_option(const CLI::App& command, const std::string& typed) {
+  if (!typed.starts_with("--")) return {};
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const auto near = nearest(typed.substr(0, typed.find('=')), known);
+  return near ? " Did you mean " + std::string(*near) + "?" : "";
+}
+
 /// What CLI11 lists from the last to the first, in the order in which it was typed.
-std::string unexpected(const CLI::ExtrasError& error) {
+std::string unexpected(const CLI::App& program, const CLI::ExtrasError& error) {
   const std::string text = error.what();
   std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
-  std::string list;
-  for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
-  return "Not expected here: " + list +
-         ". `tyglab COMMAND --help` lists the options of a command; they come after it, as in `tyglab run denim "
+  std::string list, meant;
+  for (std::string word; words >> word;) {
+    list = word + (list.empty() ? "" : " ") + list;
+    if (const std::string option = meant_option(parsed_command(program), word); !option.empty()) meant = option;
+  }
+  return "Not expected here: " + list + "." + meant +
+         " `tyglab COMMAND --help` lists the options of a command; they come after it, as in `tyglab run denim "
          "--steps 4`.";
 }
 
@@ -122,14 +143,16 @@ int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::
       }
     }
     if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-      complain(unexpected(*extras));
+      complain(unexpected(program, *extras));
       return exit_command_line;
     }
     if (const std::string problem = in_plain_words(error); !problem.empty()) {
       complain(problem);
       return exit_command_line;
     }
-    return program.exit(error) == 0 ? exit_done : exit_command_line;
+    if (error.get_exit_code() == 0) return program.exit(error), exit_done;  // help, the version
+    complain(std::string(error.what()) + ". `tyglab COMMAND --help` describes a command.");
+    return exit_command_line;
   });
 }
 

@@ -70,7 +70,8 @@ bool takes_long_to_show(const Simulation& simulation) {
 void end_interrupted(const std::string& left_out) {
   std::cout.flush(), std::cerr.flush();
   end_at_once(
-      "tyglab: Interrupted; what was written so far is complete, and no older file was replaced. " + left_out + "\n",
+      "tyglab: Interrupted; what was written so far has whole rows and frames, and no older file was replaced. " +
+          left_out + "\n",
       exit_interrupted);
 }
 

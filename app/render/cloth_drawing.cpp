@@ -105,7 +105,7 @@ void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
   draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colors.lines, 0.25f);
   shared->solid.set("own_light", 1.0f);
   draw_solid(rest_line, here, 0.8f * colors.points, 0);
-  draw_solid(equilibrium_line, here, colors.pins, 0);
+  if (options.equilibrium) draw_solid(equilibrium_line, here, colors.pins, 0);
   shared->solid.set("own_light", 0.0f);
 }
 

@@ -61,6 +61,7 @@ struct ViewOptions {
   int mode = 1;          ///< 1 triangles, 2 connections, 3 both, 4 outlines, 5 points
   bool bending = false;  ///< bending springs too, in view 2
   bool ground = true;
+  bool equilibrium = true;  ///< of a mass on a spring: the line where it hangs at rest
   bool shadows = true;
   bool soft_shadows = true;  ///< with soft edges
   Palette palette;

@@ -36,6 +36,8 @@ void Scene::follow() {
     }
     own_look_.reset();
   }
+  // The line would answer what a lab asks for.
+  view.equilibrium = !awaits_prediction(session);
   if (now.cloths != seen_.cloths) redraw = true;
   seen_ = now;
 }

@@ -80,7 +80,6 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(read_link("https://example.org/?embed&preset=flag#").name == "flag");
   CHECK(read_link("https://example.org/?preset=flag&report#sphere&k_s=80").name == "sphere");
   CHECK(read_link("https://example.org/?lab=03_stiffness&report#k_s=80").name == "hanging");
-  CHECK(read_link("#").name == "hanging");
   CHECK(problem_of("https://example.org/?embed&preset=flag&k_s=300").find("has no #") != std::string::npos);
   CHECK(is_link("#flag"));
   CHECK(is_link("Http://a"));
@@ -156,6 +155,9 @@ TEST_CASE("what is wrong with a link is named") {
   CHECK(problem_of("#flag&k_s=%4").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%zz").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=-1").find("k_s=-1") != std::string::npos);
+  CHECK(problem_of("#").find("names neither a preset nor a constant") != std::string::npos);
+  CHECK(problem_of("#flag&k_s=1&k_s=2").find("sets 'k_s' twice") != std::string::npos);
+  CHECK(problem_of("#k_s=1&W=[0,0,1]&k%5Fs=2").find("sets 'k_s' twice") != std::string::npos);
   CHECK(problem_of("#flag&k_q=1").find("unknown key") != std::string::npos);
   CHECK(problem_of("#flag&texture=/etc/passwd").find("not a shipped one") != std::string::npos);
 }

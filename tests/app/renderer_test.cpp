@@ -373,6 +373,16 @@ TEST_CASE("a plane is a disc with shadows, darker where the cloth is near it; a 
   }
 }
 
+TEST_CASE("the line where a mass on a spring comes to rest is drawn only where it is wanted") {
+  Stage stage;
+  Simulation simulation(test::one_weight());
+  const Preset& p = simulation.preset();
+  stage.camera().target = p.x_0 - glm::dvec3(0, p.m * p.g / p.k, 0);
+  const Image with = stage.draw(simulation, 1);
+  stage.options().equilibrium = false;
+  CHECK(difference(with, stage.draw(simulation, 1)) > 20);
+}
+
 TEST_CASE("threads, single quads, one weight, bodies and diverged cloths are drawn without trouble") {
   Stage stage;
   std::vector<Preset> presets = {test::cloth(2, 1), test::cloth(3, 1), test::cloth(2, 2), test::one_weight()};

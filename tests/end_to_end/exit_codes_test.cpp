@@ -64,6 +64,8 @@ TEST_CASE("a page's link is a preset; 3: one that is broken") {
   check_calls({{{"run", "#nothing", "--steps", "1"}, 3, "names no shipped preset: 'nothing'"},
                {{"run", "https://example.org/#flag&k_s=x%", "--steps", "1"}, 3, "hexadecimal"},
                {{"run", "#flag&k_s=-1", "--steps", "1"}, 3, "The link's k_s=-1"},
+               {{"run", "#", "--steps", "1"}, 3, "names neither a preset nor a constant"},
+               {{"run", "#hanging&k_s=1&k_s=2", "--steps", "1"}, 3, "sets 'k_s' twice"},
                {{"run", "https://example.org/my_preset.json", "--steps", "1"}, 3, "download the file first"},
                {{"https://example.org/my_preset.json", "--frames", "1"}, 3, "download the file first"}},
               folder.path());
@@ -109,8 +111,12 @@ TEST_CASE("2: the command line is wrong, --set included") {
   const test::TemporaryFolder folder;
   check_calls(
       {{{"run"}, 2, "PRESET"},
+       {{"run"}, 2, "tyglab: PRESET is required"},
        {{"run", "denim", "--nonsense"}, 2, "nonsense"},
-       {{"run", "denim", "--steps", "abc"}, 2, "steps"},
+       {{"run", "hanging", "--secnds", "2"}, 2, "Did you mean --seconds?"},
+       {{"run", "hanging", "--secnds=2"}, 2, "Did you mean --seconds?"},
+       {{"bench", "skip", "--quik"}, 2, "Did you mean --quick?"},
+       {{"run", "denim", "--steps", "abc"}, 2, "tyglab: --steps: 'abc' is not a whole number"},
        {{"run", "denim", "--steps", "-5"}, 2, "steps"},
        {{"run", "denim", "--steps", "5", "--seconds", "1"}, 2, "steps"},
        {{"run", "denim", "--steps", "1", "--set", "k_s"}, 2, "KEY=VALUE"},
@@ -386,12 +392,14 @@ TEST_CASE("130: a single step that would take minutes is interrupted, and what w
                                                   1.5, SIGINT, folder / "t.csv.incomplete");
     CHECK(outcome.code == 130);
     CHECK_MESSAGE(
-        outcome.err.find("Interrupted; what was written so far is complete, and no older file was replaced") !=
+        outcome.err.find(
+            "Interrupted; what was written so far has whole rows and frames, and no older file was replaced") !=
             std::string::npos,
         outcome.err);
     const std::string state = test::read_file(folder / "s.csv");
     CHECK(test::lines(state).size() > 90'000);
     CHECK(test::read_file(folder / "j.json").find("\"interrupted\"") != std::string::npos);
+    CHECK(outcome.err.find("is complete") == std::string::npos);  // it is not, where it is called incomplete
     CHECK_MESSAGE(outcome.out.find("Wrote t.csv.incomplete, s.csv, j.json.") != std::string::npos, outcome.out);
   }
 }

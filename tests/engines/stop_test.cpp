@@ -184,6 +184,32 @@ TEST_CASE("between two questions a stiff step of a large cloth makes one pass ov
   }
 }
 
+TEST_CASE("Newton's method asks every 64 rows, too, while it takes its memory and in each iteration of its systems") {
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    CAPTURE(int(precision));
+    Preset preset = test::cloth(1000, 20, "implicit_euler");
+    preset.precision = precision, preset.k_s = 50, preset.dt = 0.002;
+    constexpr int questions = 4000;  // linearizing asks in each row
+    Simulation simulation(preset);
+    const std::vector<Moment> all = moments(simulation, questions);
+    REQUIRE(int(all.size()) == questions + 1);
+    REQUIRE(all.back().products >= 5);
+    const std::size_t pass = std::size_t(preset.rows) / 64;
+    std::size_t asked = 1;  // since the last piece of work
+    for (std::size_t n = 1; n < all.size() - 1; ++n, ++asked) {
+      const Moment &now = all[n], &before = all[n - 1];
+      CAPTURE(n);
+      CHECK(now.work() - before.work() <= 1);
+      if (now.work() == before.work()) continue;
+      // First the memory of the matrix (10 passes), copies and a residual (5); in an iteration the direction, its
+      // product and the update; after a step its size, the new velocities and their residual.
+      const std::size_t passes = before.work() == 0 ? 15 : now.products > before.products ? 2 : 5;
+      if (now.systems == before.systems) CHECK(asked >= passes * pass);
+      asked = 0;
+    }
+  }
+}
+
 TEST_CASE("stopped while it takes its memory, an implicit method goes on as if it had not been") {
   for (const double k_s : {50.0, 1e5}) {
     Preset preset = test::cloth(12, 10, "implicit_euler");

@@ -99,7 +99,7 @@ int render(const RenderOptions& options) {
   }
   if (!stepper.interrupted()) return exit_done;
   if (takes_long_to_show(simulation)) end_interrupted("");
-  std::cerr << "tyglab: Interrupted; what was written so far is complete, and no older image was replaced.\n";
+  std::cerr << "tyglab: Interrupted; images written so far are whole, and no older image was replaced.\n";
   return exit_interrupted;
 }
 

@@ -409,7 +409,8 @@ int run(const RunOptions& options) {
     std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
               << " left inside a body, since bodies overlap; move them apart.\n";
   if (stepper.interrupted())
-    std::cerr << "tyglab: Interrupted; what was written so far is complete, and no older file was replaced.\n";
+    std::cerr
+        << "tyglab: Interrupted; what was written so far has whole rows and frames, and no older file was replaced.\n";
   return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
 }
 

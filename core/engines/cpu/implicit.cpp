@@ -13,14 +13,54 @@ namespace {
 
 static_assert(springs_of_a_particle == int(directions.size()));
 
+constexpr int rows_between_asking = 64;  // whether to stop
+
 }  // namespace
 
 template <class R>
-void ImplicitSolver<R>::resize() {
-  if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return;
+bool ImplicitSolver<R>::stops_before(int row) {
+  return row % rows_between_asking == 0 && stops();
+}
+
+/// Calls what(begin, end) for parts of that many elements of a field, and asks before each. Returns false where it was
+/// stopped.
+template <class R>
+template <class What>
+bool ImplicitSolver<R>::in_parts(std::size_t count, const What& what) {
+  const std::size_t part = std::size_t(rows_between_asking) * 3 * std::size_t(cloth().stride);
+  for (std::size_t begin = 0; begin < count; begin += part) {
+    if (stops()) return false;
+    what(begin, std::min(begin + part, count));
+  }
+  return !stops();
+}
+
+/// Zeros, whose memory the system hands out page by page: of a large cloth that takes seconds.
+template <class R>
+bool ImplicitSolver<R>::take_zeros(Array<R>& array, std::size_t count) {
+  array.clear();
+  array.reserve(count);
+  return in_parts(count, [&](std::size_t, std::size_t end) { array.resize(end, R(0)); });
+}
+
+template <class R>
+bool ImplicitSolver<R>::copy(const Field& from, Field& to) {
+  assert(from.all().size() == to.all().size());
+  return in_parts(from.all().size(), [&](std::size_t begin, std::size_t end) {
+    std::copy_n(from.all().begin() + begin, end - begin, to.all().begin() + begin);
+  });
+}
+
+template <class R>
+bool ImplicitSolver<R>::resize() {
+  if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return true;
   const int rows = cloth().lattice.rows, stride = cloth().stride;
-  for (Field* field : {&start_x_, &start_v_, &acceleration_, &residual_}) field->resize(rows + 3, stride);
+  for (Field* field : {&start_x_, &start_v_, &acceleration_, &residual_}) {
+    if (stops()) return false;
+    field->resize(rows + 3, stride);
+  }
   rows_ = rows, stride_ = stride;  // now that all of the memory is there
+  return true;
 }
 
 /// What only Newton's method needs. Returns false where it was stopped on the way.
@@ -32,10 +72,8 @@ bool ImplicitSolver<R>::resize_newton() {
     if (stops()) return false;
     field->resize(rows_ + 3, stride_);
   }
-  coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), R(0));
-  if (stops()) return false;
-  blocks_.assign(blocks, R(0));  // the last, which says that all of the memory is there
-  return true;
+  return take_zeros(coefficients_, std::size_t(rows_) * coefficient_pitch(stride_)) &&
+         take_zeros(blocks_, blocks);  // the last, whose size says that all of the memory is there
 }
 
 template <class R>
@@ -48,10 +86,10 @@ std::size_t ImplicitSolver<R>::bytes() const {
 }
 
 template <class R>
-double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
+double ImplicitSolver<R>::inner(const Field& a, const Field& b) {
   assert(a.pitch() == b.pitch());
   double sum = 0;  // row by row in double: one sum of a large cloth in float would lose digits
-  for (int i = 0; i < rows_; ++i) sum += dot_row(a.row(i), b.row(i), int(a.pitch()));
+  for (int i = 0; i < rows_ && !stops_before(i); ++i) sum += dot_row(a.row(i), b.row(i), int(a.pitch()));
   return sum;
 }
 
@@ -59,8 +97,8 @@ template <class R>
 bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
                               const Accelerations& accelerations, const Watch& watch, Way way) {
   assert(dt > 0 && position != velocity);
-  begin_stage(cloth, position, velocity);
-  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
+  if (!begin_stage(cloth, position, velocity, &watch)) return false;
+  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations;
   // A mass on a spring is linear: Newton's method solves it in one step.
   const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
   alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
@@ -76,11 +114,10 @@ void ImplicitSolver<R>::note_balance(const Balance& balance) {
 }
 
 template <class R>
-void ImplicitSolver<R>::begin_stage(Cloth<R>& cloth, int position, int velocity) {
-  task_ = {&cloth, position, velocity, 0, nullptr, nullptr, nullptr};
+bool ImplicitSolver<R>::begin_stage(Cloth<R>& cloth, int position, int velocity, const Watch* watch) {
+  task_ = {&cloth, position, velocity, 0, nullptr, nullptr, watch};
   stopped_ = left_to_passes_ = false;
-  resize();
-  start_x_ = this->position(), start_v_ = this->velocity();
+  return resize() && copy(this->position(), start_x_) && copy(this->velocity(), start_v_);
 }
 
 template <class R>
@@ -144,6 +181,7 @@ Balance ImplicitSolver<R>::solve_stiff() {
 
 template <class R>
 Balance ImplicitSolver<R>::balance() {
+  if (stops()) return {};
   return judged_ =
              balance_of(StageView<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt,
                                      position().row(0), velocity().row(0), start_v_.row(0), residual_.row(0), stride_});
@@ -159,17 +197,22 @@ double ImplicitSolver<R>::evaluate() {
   const std::span<R> x = position().all(), v = velocity().all();
   assert(x.size() == start_x_.all().size() && v.size() == start_v_.all().size());
   const R h = R(task_.dt);
-  for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + h * v[n];
+  const bool moved = in_parts(x.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) x[n] = start_x_.all()[n] + h * v[n];
+  });
+  if (!moved) return 0;
   (*task_.accelerations)(acceleration_);
   const std::span<R> r = residual_.all();
   assert(r.size() == v.size() && acceleration_.all().size() == v.size());
-  for (std::size_t n = 0; n < r.size(); ++n) r[n] = h * acceleration_.all()[n] - (v[n] - start_v_.all()[n]);
+  in_parts(r.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) r[n] = h * acceleration_.all()[n] - (v[n] - start_v_.all()[n]);
+  });
   return std::sqrt(inner(residual_, residual_));
 }
 
 template <class R>
 ImplicitStage::Step ImplicitSolver<R>::step() {
-  before_ = velocity();
+  copy(velocity(), before_);
   return {inner(residual_, step_), std::sqrt(inner(step_, step_))};
 }
 
@@ -178,17 +221,20 @@ ImplicitStage::Trial ImplicitSolver<R>::try_part(double part) {
   const std::span<R> v = velocity().all();
   assert(!(part < 0) && !(part > 1));
   assert(before_.all().size() == v.size() && step_.all().size() == v.size());
-  for (std::size_t n = 0; n < v.size(); ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
+  in_parts(v.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
+  });
   const double norm = evaluate();
   return {norm, inner(residual_, step_)};
 }
 
 template <class R>
 void ImplicitSolver<R>::linearize() {
-  std::fill(blocks_.begin(), blocks_.end(), R(0));
+  in_parts(blocks_.size(),
+           [&](std::size_t begin, std::size_t end) { std::fill_n(blocks_.begin() + begin, end - begin, R(0)); });
   const bool weight = cloth().preset.kind == Kind::one_weight;
   mass_ = own_stiffness(cloth().preset, task_.dt);
-  for (int i = 0; i < rows_; ++i)
+  for (int i = 0; i < rows_ && !stops_before(i); ++i)
     for (int c = 0; c < 3; ++c) std::fill_n(block(i) + c * stride_, cloth().lattice.columns, R(mass_));
   if (!weight)
     for (int i = 0; i < rows_ && !stops(); ++i)
@@ -254,7 +300,7 @@ void ImplicitSolver<R>::invert_blocks() {
 template <class R>
 double ImplicitSolver<R>::multiply() {
   double sum = 0;
-  for (int i = 0; i < rows_; ++i)
+  for (int i = 0; i < rows_ && !stops_before(i); ++i)
     sum += multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(stride_), direction_.row(i),
                                        product_.row(i), stride_, cloth().lattice.columns, i == 0, mass_});
   return sum;
@@ -263,7 +309,7 @@ double ImplicitSolver<R>::multiply() {
 template <class R>
 Residual ImplicitSolver<R>::update(double alpha) {
   Residual sum{0, 0};
-  for (int i = 0; i < rows_; ++i) {
+  for (int i = 0; i < rows_ && !stops_before(i); ++i) {
     const Residual row =
         update_row(UpdateTask<R>{direction_.row(i), product_.row(i), block(i), step_.row(i), residual_.row(i),
                                  preconditioned_.row(i), stride_, cloth().lattice.columns, alpha});
@@ -275,7 +321,9 @@ Residual ImplicitSolver<R>::update(double alpha) {
 /// Solves A step_ = residual_, using residual_ up. Returns whether it got there.
 template <class R>
 bool ImplicitSolver<R>::conjugate_gradients() {
-  for (Field* field : {&step_, &direction_, &product_}) std::fill(field->all().begin(), field->all().end(), R(0));
+  for (Field* field : {&step_, &direction_, &product_})
+    in_parts(field->all().size(),
+             [&](std::size_t begin, std::size_t end) { std::fill_n(field->all().begin() + begin, end - begin, R(0)); });
   Residual now = update(0);
   const double enough = linear_tolerance * linear_tolerance * now.squared;
   const int most = max_gradient_steps(cloth().lattice);
@@ -284,10 +332,11 @@ bool ImplicitSolver<R>::conjugate_gradients() {
     if (now.squared <= enough) return true;
     if (stops() || (n > 0 && out_of_time())) return false;
     const double keep = now.preconditioned / before;
-    for (int i = 0; i < rows_; ++i)
+    for (int i = 0; i < rows_ && !stops_before(i); ++i)
       add_scaled_row(preconditioned_.row(i), keep, direction_.row(i), int(direction_.pitch()));
     before = now.preconditioned;
     now = update(before / multiply());
+    if (stops()) return false;
     ++counts_.linear;
     note_gradients(double(n + 1) / most);
     if (!std::isfinite(now.squared)) return false;
@@ -297,7 +346,7 @@ bool ImplicitSolver<R>::conjugate_gradients() {
 
 template <class R>
 bool ImplicitSolver<R>::gradients() {
-  before_ = residual_;
+  if (!copy(residual_, before_)) return false;
   const bool solved = conjugate_gradients();
   std::swap(residual_, before_);
   return solved;

@@ -45,7 +45,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   bool solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
              const Accelerations& accelerations, const Watch& watch, Way way);
   /// For a stage that others solve: keeps c_x and c_v, which the two vectors hold.
-  void begin_stage(Cloth<R>& cloth, int position, int velocity);
+  void begin_stage(Cloth<R>& cloth, int position, int velocity) { begin_stage(cloth, position, velocity, nullptr); }
   /// What the velocities that `passes` passes have found leave of that stage's equations.
   void measure_stage(double dt, const Tears& tears, const Accelerations& accelerations, const Watch& watch, int passes);
   /// Whether the stage is as it was before, to be solved by passes of block descent while there is time.
@@ -81,7 +81,11 @@ class ImplicitSolver final : private implicit::EitherStage {
     assert(!kept_.empty());
     velocity() = kept_, evaluate(), balance();
   }
-  bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
+  bool stops() override {
+    return stopped_ = stopped_ || (task_.watch != nullptr && task_.watch->stop && task_.watch->stop());
+  }
+  /// Asks every so many rows.
+  bool stops_before(int row);
   bool out_of_time() override { return is_over(1); }
   StageLimit limit() override { return task_.watch->limit; }
   void note_progress(double part) override { task_.watch->progress(part); }
@@ -89,7 +93,12 @@ class ImplicitSolver final : private implicit::EitherStage {
   const Cloth<R>& cloth() const { return *task_.cloth; }
   Field& position() { return task_.cloth->vector(task_.position); }
   Field& velocity() { return task_.cloth->vector(task_.velocity); }
-  void resize();
+  bool begin_stage(Cloth<R>& cloth, int position, int velocity, const Watch* watch);
+  template <class What>
+  bool in_parts(std::size_t count, const What& what);
+  bool take_zeros(Array<R>& array, std::size_t count);
+  bool copy(const Field& from, Field& to);
+  bool resize();
   bool resize_newton();
   Balance alternate(bool changed);
   void note_balance(const Balance& balance);
@@ -105,7 +114,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   bool conjugate_gradients();
   double multiply();
   implicit::Residual update(double alpha);
-  double inner(const Field& a, const Field& b) const;
+  double inner(const Field& a, const Field& b);
   R* block(int i) { return blocks_.data() + std::size_t(i) * 6 * stride_; }
 
   Task task_{};
