@@ -377,7 +377,10 @@ TEST_CASE("the line where a mass on a spring comes to rest is drawn only where i
   Stage stage;
   Simulation simulation(test::one_weight());
   const Preset& p = simulation.preset();
-  stage.camera().target = p.x_0 - glm::dvec3(0, p.m * p.g / p.k, 0);
+  const double sag = p.m * p.g / p.k;
+  stage.camera().target = p.x_0 - glm::dvec3(0, sag, 0);
+  stage.camera().distance = float(3 * std::max(sag, std::abs(p.offset)));
+  stage.options().samples = 4;  // the line is thinner than a pixel
   const Image with = stage.draw(simulation, 1);
   stage.options().equilibrium = false;
   CHECK(difference(with, stage.draw(simulation, 1)) > 20);
