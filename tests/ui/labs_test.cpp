@@ -198,6 +198,8 @@ TEST_CASE("a lab asks nothing; what is done in it is no work, and whoever leaves
   CHECK(window.scene.colors.chosen->field == ParticleField::speed);
   CHECK(window.session.labs.kept.empty());
   window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  CHECK(window.session.copies.lockstep.empty());
+  window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   CHECK(window.preset().k_s == 50);
 }
 
