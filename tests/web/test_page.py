@@ -284,7 +284,7 @@ class Tests:
 
     def test_says_what_is_missing(self):
         """Whatever keeps the page from starting or from going on is said, with a way on."""
-        words, retry = "document.getElementById('words').textContent", "document.getElementById('retry')"
+        words, retry = "document.getElementById('words')?.textContent", "document.getElementById('retry')"
         for name in ["page.js", "tyglab.js", "tyglab.wasm", "data.bin"]:
             page = self.browser.page(f"{self.home}/?embed", blocked=[f"*/{name}"])
             page.wait(f"{words}.includes('{name} did not load') && {retry}.checkVisibility()", 30)
