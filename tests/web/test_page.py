@@ -25,6 +25,11 @@ WITH_THREADS = ["opens_and_is_pulled", "cuts", "link", "lab_to_its_end", "files"
                 "threads_leave_frames_alone", "no_errors"]
 
 
+def changes(before, now):
+    """What of a preset is no longer as it was."""
+    return [[key, value, now[key]] for key, value in before.items() if now[key] != value]
+
+
 @contextlib.contextmanager
 def served(folder, threads=False):
     class Handler(http.server.SimpleHTTPRequestHandler):
@@ -483,7 +488,8 @@ class Tests:
             page.touch("touchEnd")
             time.sleep(0.5)
         now = report(page)
-        assert now["preset"] == before["preset"] and now["paused"] == before["paused"] and not now["typing"], now["preset"]
+        assert now["preset"] == before["preset"], changes(before["preset"], now["preset"])
+        assert now["paused"] == before["paused"] and not now["typing"], [now["paused"], now["typing"]]
         # One finger alone scrolls what is a list.
         x, y, _ = place(now, "constants.k_s.slider", 1024)
         page.touch("touchStart", (x, y))
@@ -493,7 +499,7 @@ class Tests:
         page.touch("touchEnd")
         now = wait_for(page, "the column scrolls",
                        lambda now: "constants.k_s.slider" not in now["controls"] or place(now, "constants.k_s.slider", 1024)[1] < y - 40)
-        assert now["preset"] == before["preset"], now["preset"]
+        assert now["preset"] == before["preset"], changes(before["preset"], now["preset"])
         page.call("Page.close")
 
     def test_typing_by_touch(self):
