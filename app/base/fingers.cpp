@@ -94,7 +94,7 @@ void Fingers::on_finger(InputQueue& queue, int id, Phase phase, glm::vec2 at, do
     fingers_.push_back({id, at});
     if (fingers_.size() == 1) return put_down(queue, at, time);
     role_ = Role::none;
-    let_go(queue, time);
+    if (button_ >= 0) queue.on_cancel(button_, time), button_ = -1;
     queue.on_move(middle(), time);
     if (over_cloth_) hold(queue, GLFW_MOUSE_BUTTON_MIDDLE, time);
     apart_ = distance(), last_ = middle();

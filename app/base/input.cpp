@@ -41,6 +41,11 @@ void InputQueue::on_button(int button, int action, int given_mods, double time) 
   add({type, button, mods, at, {0, 0}, time});
 }
 
+void InputQueue::on_cancel(int button, double time) {
+  if (button < most_buttons) buttons[std::size_t(button)] = false;
+  add({PointerEvent::Type::release, button, mods, at, {0, 0}, time, false});
+}
+
 void InputQueue::on_move(glm::vec2 to, double time) {
   at = to;
   add({PointerEvent::Type::move, 0, mods, at, {0, 0}, time});

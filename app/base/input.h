@@ -27,6 +27,7 @@ struct PointerEvent {
   glm::vec2 at{0};     ///< window coordinates
   glm::vec2 wheel{0};  ///< of wheel
   double time = 0;     ///< s, glfwGetTime
+  bool click = true;   ///< of release: false where a gesture has taken the press over
 };
 
 struct TypedCharacter {
@@ -67,6 +68,8 @@ struct InputQueue {
   void on_key(int key, int action, int mods);
   void on_character(unsigned code);
   void on_button(int button, int action, int mods, double time);
+  /// The button is up because a gesture has taken its press over: no control counts as clicked.
+  void on_cancel(int button, double time);
   void on_move(glm::vec2 to, double time);
   void on_wheel(glm::vec2 by, double time);
 

@@ -270,9 +270,9 @@ TEST_CASE("a gesture of two fingers is no press where the first of them landed")
   const Preset before = window.preset();
   const auto picked = window.session.picked;  // the middle of the cloth, from the start
   const float distance = window.scene.camera.distance;
-  const auto pinch = [&](glm::vec2 at) {
+  const auto pinch = [&](glm::vec2 at, int frames = 3) {
     screen.on(1, TouchScreen::Phase::down, at);
-    screen.frames(3);  // the second finger comes a moment later
+    screen.frames(frames);  // the second finger comes a moment later
     screen.on(2, TouchScreen::Phase::down, at + glm::vec2(40, 0));
     for (float n = 1; n <= 8; ++n) {
       screen.on(1, TouchScreen::Phase::move, at - glm::vec2(5 * n, 0));
@@ -284,6 +284,8 @@ TEST_CASE("a gesture of two fingers is no press where the first of them landed")
   };
   for (const char* control : {"top.play", "constants.dt.value"}) pinch(window.middle(control));
   pinch(window.along("constants.k_s.slider", 0.9f));
+  // A quarter of a second later the first has pressed, which the second takes back.
+  for (const char* control : {"top.play", "constants.dt.value"}) pinch(window.middle(control), 15);
   CHECK(window.paused());
   CHECK_FALSE(window.typing());
   REQUIRE(picked != Pins::Site{6, 6});

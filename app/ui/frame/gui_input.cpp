@@ -131,6 +131,7 @@ bool GuiInput::show(const PointerEvent& event, Frame& frame) {
   } else {
     if (frame.key || frame.text || (frame.moved && buttons_.any())) return false;
     buttons_[std::size_t(event.button)] = event.type == PointerEvent::Type::press;
+    if (!event.click) gui::forget_press();
     frame.button = true;
     frame.mods = event.mods;
   }

@@ -57,6 +57,11 @@ inline void keep_pressed() {
   ImGui::KeepAliveID(ImGui::GetActiveID());
 }
 
+/// What is pressed is not any longer, and was not clicked.
+inline void forget_press() {
+  ImGui::ClearActiveID();
+}
+
 /// Selects all that stands in the text field which takes keys.
 inline void select_all_text() {
   ImGui::GetCurrentContext()->InputTextState.SelectAll();
