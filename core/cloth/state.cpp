@@ -41,8 +41,21 @@ Angle angle(double degrees) {
   return {std::sin(radians), std::cos(radians)};
 }
 
+/// Where particles are at the start.
+struct StartPlaces {
+  explicit StartPlaces(const Preset& p)
+      : x_0(p.x_0), tilt(angle(p.tilt_deg)), spacing(p.initial_stretch * p.L), middle((p.columns - 1) / 2.0) {}
+  double x(int j) const { return x_0.x + (j - middle) * spacing; }
+  double y(int i) const { return x_0.y - i * spacing * tilt.sine; }
+  double z(int i) const { return x_0.z + i * spacing * tilt.cosine; }
+
+  glm::dvec3 x_0;
+  Angle tilt;
+  double spacing, middle;
+};
+
 StateRows weight_row(const Preset& p) {
-  return [x = p.x_0 + glm::dvec3(0, p.offset, 0), v = starting_velocity(p)](int, const StateRow& row) {
+  return [x = starting_position(p, 0, 0), v = starting_velocity(p)](int, const StateRow& row) {
     for (int c = 0; c < 3; ++c) row.x[c][0] = x[c], row.v[c][0] = v[c];
   };
 }
@@ -53,23 +66,28 @@ Lattice lattice_of(const Preset& preset) {
   return preset.kind == Kind::one_weight ? Lattice{1, 1} : Lattice{preset.rows, preset.columns};
 }
 
+glm::dvec3 starting_position(const Preset& p, int i, int j) {
+  if (p.kind == Kind::one_weight) return p.x_0 + glm::dvec3(0, p.offset, 0);
+  const StartPlaces places(p);
+  return {places.x(j), places.y(i), places.z(i)};
+}
+
 glm::dvec3 starting_velocity(const Preset& preset) {
   return preset.kind == Kind::one_weight ? glm::dvec3(0, preset.v_0.y, 0) : preset.v_0;
 }
 
 StateRows start_rows(const Preset& p) {
   if (p.kind == Kind::one_weight) return weight_row(p);
-  const Angle tilt = angle(p.tilt_deg);
-  const double spacing = p.initial_stretch * p.L;
+  const StartPlaces places(p);
   std::vector<double> along(std::size_t(p.columns));
-  for (int j = 0; j < p.columns; ++j) along[j] = p.x_0.x + (j - (p.columns - 1) / 2.0) * spacing;
+  for (int j = 0; j < p.columns; ++j) along[j] = places.x(j);
   const bool moves = p.v_0 != glm::dvec3(0);  // otherwise it does not matter who is pinned
-  return [=, x_0 = p.x_0, v_0 = p.v_0, along = std::move(along),
-          pinned = moves ? pinned_particles(p) : std::vector<std::uint8_t>()](int i, const StateRow& row) {
+  return [=, v_0 = p.v_0, along = std::move(along), pinned = moves ? pinned_particles(p) : std::vector<std::uint8_t>()](
+             int i, const StateRow& row) {
     const std::size_t columns = along.size();
     std::copy(along.begin(), along.end(), row.x[0]);
-    std::fill_n(row.x[1], columns, x_0.y - i * spacing * tilt.sine);
-    std::fill_n(row.x[2], columns, x_0.z + i * spacing * tilt.cosine);
+    std::fill_n(row.x[1], columns, places.y(i));
+    std::fill_n(row.x[2], columns, places.z(i));
     for (int c = 0; c < 3; ++c) {
       std::fill_n(row.v[c], columns, v_0[c]);
       if (pinned.empty()) continue;

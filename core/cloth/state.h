@@ -60,6 +60,8 @@ Lattice lattice_of(const Preset& preset);
 /// Positions and velocities at the start; pinned particles have v = 0.
 StateRows start_rows(const Preset& preset);
 State start_state(const Preset& preset);
+/// Of particle (i, j), m.
+glm::dvec3 starting_position(const Preset& preset, int i, int j);
 /// That of every free particle, m/s; the mass on a spring moves along y alone.
 glm::dvec3 starting_velocity(const Preset& preset);
 /// Mask over i·columns + j of the particles that the preset pins.

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/cloth/state.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 #include "core/theory/modes.h"
@@ -31,13 +32,13 @@ std::string finer_precision(const Preset& p) {
 
 /// One unit in the last place of the largest coordinate of a particle at the start, m.
 double last_digit(const Preset& p) {
-  const double width = p.initial_stretch * (p.columns - 1) * p.L / 2, height = p.initial_stretch * (p.rows - 1) * p.L;
-  const double tilt = p.tilt_deg * std::acos(-1.0) / 180;
-  const double size =
-      p.kind == Kind::one_weight
-          ? std::abs(p.x_0.y) + std::abs(p.offset)
-          : std::max({std::abs(p.x_0.x) + width, std::abs(p.x_0.y), std::abs(p.x_0.z),
-                      std::abs(p.x_0.y - height * std::sin(tilt)), std::abs(p.x_0.z + height * std::cos(tilt))});
+  double size = 0;
+  const Lattice lattice = lattice_of(p);
+  for (const int i : {0, lattice.rows - 1})
+    for (const int j : {0, lattice.columns - 1}) {
+      const glm::dvec3 x = starting_position(p, i, j);
+      size = std::max({size, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    }
   const double epsilon =
       p.precision == Precision::float_ ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
   return size > 0 ? epsilon * std::exp2(std::floor(std::log2(size))) : 0;
