@@ -126,7 +126,7 @@ void take_away(Session& session, std::size_t n) {
 /// Makes the steps that a copy has missed, if that is quick; otherwise it starts from the original. Returns whether it
 /// has its own motion.
 bool catch_up(Session& session, const CopyChange& change, std::size_t n) {
-  constexpr double quick_s = 0.5;
+  constexpr double quick_s = 0.1;  // of a frame
   Copies& copies = session.copies;
   Simulation& copy = *copies.lockstep[n].simulation;
   const double missed = copies.t - copy.time(), ahead = 0.5 * copy.preset().dt;
