@@ -411,7 +411,7 @@ double Simulation::excess() {
   const double given = engine_->given_squared();
   if (divergence_ || !(given > 0) || std::isinf(given)) return 0;
   const Energy now = energy().energy;
-  return 2 / preset_.m * (now.kinetic + now.stretch + now.bending) / given;
+  return 2 / preset_.m * (now.kinetic + now.elastic()) / given;
 }
 
 void Simulation::diverge(const AdvanceResult& part) {

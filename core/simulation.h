@@ -19,16 +19,18 @@ namespace tyglab {
 
 /// The variables of table B.1 for one particle, in N, m, m/s, m/s².
 struct ParticleReadout {
-  glm::dvec3 F{0}, F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0}, F_int{0}, F_ext{0};
+  ForcesByKey<glm::dvec3> forces;  ///< F and F_ext contain the force of the hand
   glm::dvec3 x{0}, v{0}, a{0};
   bool pinned = false, held = false;
   bool on_body = false;  ///< a body pushes it, a force that neither F nor a contains
+  /// By its key in the notation table: a force, "x", "v" or "a".
+  const glm::dvec3& operator[](std::string_view key) const {
+    return key == "x" ? x : key == "v" ? v : key == "a" ? a : forces[key];
+  }
 };
 
-/// Forces of the whole cloth for the plots' "sum" and "maximum": magnitudes, N.
-struct ForceSummary {
-  double F_s = 0, F_b = 0, F_d = 0, F_g = 0, F_wind = 0, F_int = 0, F_ext = 0, F = 0;
-};
+/// Forces of the whole cloth for the plots' "sum" and "maximum": magnitudes.
+using ForceSummary = ForcesByKey<double>;
 enum class Reduction { sum, maximum };
 
 /// A past moment of the cloth, complete enough to return to it. With the constants and the engine of that moment the

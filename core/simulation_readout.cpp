@@ -57,16 +57,13 @@ ParticleReadout Simulation::particle(int i, int j) const {
   const ParticleForces forces = forces_on_particle(acting(), tears_, now, i, j);
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
   ParticleReadout out;
-  out.F_s = forces.F_s, out.F_b = forces.F_b, out.F_d = forces.F_d, out.F_g = forces.F_g, out.F_wind = forces.F_wind;
-  out.F_int = forces.F_int();
-  out.F_ext = forces.F_ext();
+  out.forces = by_key(forces);
   out.pinned = pinned(i, j);
   out.held = held_.particle == int(p);
   // What holds a particle (pin or hand) tolerates the rest of its force; the hand's belongs to F_ext.
-  if (out.held) out.F_ext -= out.F_int + out.F_ext;
-  out.F = out.F_int + out.F_ext;
+  if (out.held) out.forces.give_hand(-out["F"]);
   out.x = now.x(i, j), out.v = now.v(i, j);
-  out.a = out.pinned ? glm::dvec3(0) : out.F / preset_.m;
+  out.a = out.pinned ? glm::dvec3(0) : out["F"] / preset_.m;
   out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
                 held_by_contact(preset_.bodies, preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
   return out;
@@ -74,18 +71,16 @@ ParticleReadout Simulation::particle(int i, int j) const {
 
 ForceSummary Simulation::forces(Reduction reduction) {
   const State& state = read();
-  ForceSummary sum;
-  const auto add = [&](double& to, const glm::dvec3& force) {
-    const double size = glm::length(force);
-    to = reduction == Reduction::sum ? to + size : std::max(to, size);
-  };
+  ForceSummary all;
   for (int i = 0; i < lattice_.rows; ++i)
     for (int j = 0; j < lattice_.columns; ++j) {
-      const ParticleForces f = forces_on_particle(acting(), tears_, state, i, j);
-      add(sum.F_s, f.F_s), add(sum.F_b, f.F_b), add(sum.F_d, f.F_d), add(sum.F_g, f.F_g), add(sum.F_wind, f.F_wind);
-      add(sum.F_int, f.F_int()), add(sum.F_ext, f.F_ext()), add(sum.F, f.F_int() + f.F_ext());
+      const auto on = by_key(forces_on_particle(acting(), tears_, state, i, j));
+      for (std::size_t n = 0; n < on.values.size(); ++n) {
+        const double size = glm::length(on.values[n]);
+        all.values[n] = reduction == Reduction::sum ? all.values[n] + size : std::max(all.values[n], size);
+      }
     }
-  return sum;
+  return all;
 }
 
 // The energy ledger of a simulation, kept only on request.

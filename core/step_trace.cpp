@@ -83,7 +83,7 @@ TracedStage Patch::evaluated(const Sweep& sweep, int i, int j) const {
   TracedStage stage;
   stage.x = near.x(i, j), stage.v = near.v(i, j);
   stage.forces = forces_on_particle(preset_, simulation_.tears(), near, i, j);
-  if (i == i_ && j == j_) stage.springs = springs_on_particle(preset_, simulation_.tears(), near, i, j);
+  if (i == i_ && j == j_) stage.stencils = stencils_on_particle(preset_, simulation_.tears(), near, i, j);
   if (!fixed(i, j)) stage.a = (stage.forces.F_int() + stage.forces.F_ext()) / preset_.m;
   return stage;
 }

@@ -1,4 +1,4 @@
-// Writes out one step of one particle: its forces spring by spring, and every sum of the method's table with numbers.
+// Writes out one step of one particle: its forces stencil by stencil, and every sum of the method's table with numbers.
 // It is computed in double from the table (scheme.h), independently of the engines, so it also checks them.
 //
 // The result equals the engine's own step up to rounding (tests/unit/step_trace_test.cpp: 1e-13 m), so the Inside card
@@ -34,8 +34,8 @@ struct TracedAssignment {
 struct TracedStage {
   glm::dvec3 x{0}, v{0};  ///< where a(x, v) is evaluated: m, m/s
   ParticleForces forces;
-  std::vector<SpringForce> springs;
-  glm::dvec3 a{0};  ///< m/s²; 0 for what is pinned or held
+  std::vector<StencilForce> stencils;  ///< of internal forces
+  glm::dvec3 a{0};                     ///< m/s²; 0 for what is pinned or held
   std::vector<TracedAssignment> assignments;
 };
 

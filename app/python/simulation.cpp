@@ -174,11 +174,16 @@ class Motion {
   bool stepping_ = false;  ///< guarded by the interpreter's lock
 };
 
+py::str key_of(std::string_view name) {
+  return {name.data(), name.size()};
+}
+
 py::dict energy(Motion& motion) {
   const Energy now = motion.at_rest().energy().energy;
   py::dict all;
-  all["kinetic"] = now.kinetic, all["stretch"] = now.stretch, all["bending"] = now.bending;
-  all["gravity"] = now.gravity, all["total"] = now.total();
+  all["kinetic"] = now.kinetic, all["total"] = now.total();
+  for (const Force* force : force::all)
+    if (force->conserves) all[key_of(force->name)] = now.of[*force];
   return all;
 }
 
@@ -187,8 +192,10 @@ py::object ledger(Motion& motion) {
   if (!now) return py::none();
   py::dict all;
   all["began"] = now->began, all["start"] = now->start, all["total"] = now->energy.total();
-  all["damping"] = now->works.damping, all["contact"] = now->works.contact, all["tearing"] = now->works.tearing;
-  all["wind"] = now->works.wind, all["hand"] = now->works.hand, all["edits"] = now->works.edits;
+  for (const Force* force : force::all)
+    if (!force->conserves) all[key_of(force->name)] = now->works.of[*force];
+  all["contact"] = now->works.contact, all["tearing"] = now->works.tearing;
+  all["hand"] = now->works.hand, all["edits"] = now->works.edits;
   all["unexplained"] = now->unexplained();
   return all;
 }
@@ -215,8 +222,7 @@ py::dict particle(const Motion& motion, int i, int j) {
   motion.check(i, j);
   const ParticleReadout r = motion.at_rest().particle(i, j);
   py::dict all;
-  all["F"] = to_array(r.F), all["F_s"] = to_array(r.F_s), all["F_b"] = to_array(r.F_b), all["F_d"] = to_array(r.F_d);
-  all["F_g"] = to_array(r.F_g), all["F_int"] = to_array(r.F_int), all["F_ext"] = to_array(r.F_ext);
+  for (const std::string_view key : force_keys()) all[key_of(key)] = to_array(r.forces[key]);
   all["x"] = to_array(r.x), all["v"] = to_array(r.v), all["a"] = to_array(r.a);
   all["pinned"] = r.pinned, all["held"] = r.held;
   return all;

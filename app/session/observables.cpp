@@ -99,6 +99,12 @@ Known length_of(Session& session) {
   const auto particle = picked_particle(session);
   return particle ? Known(glm::length((*particle).*vector)) : std::nullopt;
 }
+/// Of force_keys()[n].
+template <std::size_t n>
+Known size_of_force(Session& session) {
+  const auto particle = picked_particle(session);
+  return particle ? Known(glm::length(particle->forces.values[n])) : std::nullopt;
+}
 template <int component>
 Known position_of(Session& session) {
   const auto particle = picked_particle(session);
@@ -153,7 +159,7 @@ constexpr std::string_view
     study_hint = "Pause, and open the Accuracy card: it measures for a few seconds from the present moment on.",
     pick_hint = "Right-click a particle to pick it.", readings = "below the constants";
 
-const std::array rows{
+const std::array rows_but_forces{
     Observable{.name = "t",
                .unit = "s",
                .meaning = "Simulated time.",
@@ -336,36 +342,6 @@ const std::array rows{
                .hint = pick_hint,
                .place = readings,
                .number = length_of<&ParticleReadout::a>},
-    Observable{.name = "F",
-               .unit = "N",
-               .meaning = "Magnitude of the total force on the picked particle.",
-               .hint = pick_hint,
-               .place = readings,
-               .number = length_of<&ParticleReadout::F>},
-    Observable{.name = "F_s",
-               .unit = "N",
-               .meaning = "Magnitude of the stretching force on the picked particle.",
-               .hint = pick_hint,
-               .place = readings,
-               .number = length_of<&ParticleReadout::F_s>},
-    Observable{.name = "F_b",
-               .unit = "N",
-               .meaning = "Magnitude of the bending force on the picked particle.",
-               .hint = pick_hint,
-               .place = readings,
-               .number = length_of<&ParticleReadout::F_b>},
-    Observable{.name = "F_d",
-               .unit = "N",
-               .meaning = "Magnitude of the damping force on the picked particle.",
-               .hint = pick_hint,
-               .place = readings,
-               .number = length_of<&ParticleReadout::F_d>},
-    Observable{.name = "F_g",
-               .unit = "N",
-               .meaning = "Weight of the picked particle.",
-               .hint = pick_hint,
-               .place = readings,
-               .number = length_of<&ParticleReadout::F_g>},
     Observable{
         .name = "fastest", .unit = "m/s", .meaning = "Speed of the fastest particle.", .number = fastest_particle},
     Observable{.name = "mean_y", .unit = "m", .meaning = "Mean height of the particles.", .number = mean_height},
@@ -412,15 +388,37 @@ constexpr std::array panel_sections{
     PanelSection{"Start", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
 };
 
+/// One for each force.
+template <std::size_t... n>
+std::vector<Observable> with_forces(std::index_sequence<n...>) {
+  static const std::array<std::string, sizeof...(n)> meanings{
+      (std::string(variable(force_keys()[n]).quantity) + " on the picked particle, its magnitude.")...};
+  std::vector<Observable> all(rows_but_forces.begin(), rows_but_forces.end());
+  (all.push_back({.name = force_keys()[n],
+                  .unit = "N",
+                  .meaning = meanings[n],
+                  .hint = pick_hint,
+                  .place = readings,
+                  .number = size_of_force<n>}),
+   ...);
+  return all;
+}
+
+const std::vector<Observable>& all_rows() {
+  static const std::vector<Observable> all = with_forces(std::make_index_sequence<force::all.size() + 3>());
+  return all;
+}
+
 }  // namespace
 
 std::span<const Observable> observables() {
-  return rows;
+  return all_rows();
 }
 
 const Observable* find_observable(std::string_view name) {
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Observable& o) { return o.name == name; });
-  return row == rows.end() ? nullptr : &*row;
+  const auto row =
+      std::find_if(all_rows().begin(), all_rows().end(), [&](const Observable& o) { return o.name == name; });
+  return row == all_rows().end() ? nullptr : &*row;
 }
 
 bool is_observable(std::string_view name) {
@@ -455,7 +453,7 @@ std::string_view unit_of(std::string_view name) {
 
 std::vector<std::string_view> observable_names() {
   std::vector<std::string_view> names;
-  for (const Observable& row : rows) names.push_back(row.name);
+  for (const Observable& row : all_rows()) names.push_back(row.name);
   for (const PresetRow& row : notation())
     if (constant_place(row.key).row != nullptr) names.push_back(row.key);
   return names;
@@ -477,7 +475,7 @@ std::string_view observe_word(const Session& session, std::string_view name) {
 std::string observables_markdown() {
   std::ostringstream out;
   out << "| Name | Unit | What it is |\n|---|---|---|\n";
-  for (const Observable& row : rows) {
+  for (const Observable& row : all_rows()) {
     out << "| `" << row.name << "` | " << (row.unit.empty() ? "–" : row.unit) << " | " << row.meaning;
     if (row.words != nullptr && row.name != "integrator") {
       out << " One of";

@@ -15,25 +15,19 @@
 namespace tyglab {
 namespace {
 
-/// Magnitudes in the order of force_keys, N.
-std::array<double, Recorded::forces_count> force_values(const ParticleReadout& r) {
-  return {glm::length(r.F),   glm::length(r.F_s),   glm::length(r.F_b),  glm::length(r.F_d),
-          glm::length(r.F_g), glm::length(r.F_int), glm::length(r.F_ext)};
-}
-
-std::array<double, Recorded::forces_count> force_values(const ForceSummary& s) {
-  return {s.F, s.F_s, s.F_b, s.F_d, s.F_g, s.F_int, s.F_ext};
-}
-
 void sample_forces(Session& session) {
   Recorded& to = session.recorded;
   const double t = session.simulation->time();
   const Source source = force_source(session);
   if (source != Source::particle) {
     const auto reduction = source == Source::sum ? Reduction::sum : Reduction::maximum;
-    to.forces.add(t, force_values(session.simulation->forces(reduction)));
+    to.forces.add(t, session.simulation->forces(reduction).values);
   } else if (session.picked) {
-    to.forces.add(t, force_values(session.simulation->particle(session.picked->i, session.picked->j)));
+    const auto on = session.simulation->particle(session.picked->i, session.picked->j).forces;
+    std::array<double, std::tuple_size_v<decltype(on.values)>> sizes;
+    std::transform(on.values.begin(), on.values.end(), sizes.begin(),
+                   [](const glm::dvec3& F) { return glm::length(F); });
+    to.forces.add(t, sizes);
   }
 }
 
@@ -53,7 +47,7 @@ void sample_energy(Session& session) {
   const auto reading = session.simulation->ledger();
   if (!reading) return;
   const Energy& now = reading->energy;
-  const std::array row{now.kinetic, now.stretch + now.bending, now.total() - reading->start, reading->unexplained()};
+  const std::array row{now.kinetic, now.elastic(), now.total() - reading->start, reading->unexplained()};
   session.recorded.energy.add(session.simulation->time(), row);
 }
 
@@ -71,19 +65,6 @@ const Variable& variable(std::string_view key) {
   return *it;
 }
 
-glm::dvec3 vector_of(const ParticleReadout& r, std::string_view key) {
-  if (key == "F_s") return r.F_s;
-  if (key == "F_b") return r.F_b;
-  if (key == "F_d") return r.F_d;
-  if (key == "F_g") return r.F_g;
-  if (key == "F_int") return r.F_int;
-  if (key == "F_ext") return r.F_ext;
-  if (key == "F") return r.F;
-  if (key == "x") return r.x;
-  if (key == "v") return r.v;
-  return r.a;
-}
-
 std::vector<SeriesColumn> height_columns() {
   std::vector<SeriesColumn> columns{{"y", "m"}};
   for (std::string_view curve : ReferenceCurves::curves) columns.push_back({"y_" + std::string(curve), "m"});
@@ -99,7 +80,7 @@ std::vector<SeriesColumn> energy_column_list() {
 std::vector<SeriesColumn> force_columns(Source source) {
   const std::string before = source == Source::particle ? "abs_" : source == Source::sum ? "sum_" : "max_";
   std::vector<SeriesColumn> columns;
-  for (std::string_view key : force_keys) columns.push_back({before + std::string(key), "N"});
+  for (std::string_view key : force_keys()) columns.push_back({before + std::string(key), "N"});
   return columns;
 }
 

@@ -55,11 +55,10 @@ class Series {
 enum class Source { particle, sum, maximum };
 
 struct Recorded {
-  static constexpr int forces_count = 7;
   Source chosen = Source::particle;  ///< force_source() is what it follows
   bool paused = false;
   std::int64_t sampled = 0;                                    ///< of Session::steps_made, those with a sample
-  Series forces{forces_count};                                 ///< N, by force_keys
+  Series forces{force_keys().size()};                          ///< magnitudes, N, by force_keys()
   Series energy{4};                                            ///< J, by energy_columns
   Series height{5};                                            ///< m, of the weight, then by ReferenceCurves::curves
   std::vector<std::pair<double, std::string>> height_methods;  ///< from which t on (s) which method moved the weight
@@ -69,14 +68,9 @@ struct Recorded {
   void go_on_from(double t);
 };
 
-/// Keys of the plotted forces, in the order of Recorded::forces' columns.
-inline constexpr std::array<std::string_view, Recorded::forces_count> force_keys{"F",   "F_s",   "F_b",  "F_d",
-                                                                                 "F_g", "F_int", "F_ext"};
 /// Curves of the energies, in the order of Recorded::energy's columns. "by method": what it added, below 0 removed.
 inline constexpr std::array<std::string_view, 4> energy_columns{"kinetic", "elastic", "total change", "by method"};
 const Variable& variable(std::string_view key);
-/// A variable of table B.1 by its key in the notation table, in its own unit.
-glm::dvec3 vector_of(const ParticleReadout& readout, std::string_view key);
 /// Of Recorded::forces: abs_F_s of a particle, sum_F_s or max_F_s of all, as `run --series` names them; all are
 /// magnitudes.
 std::vector<SeriesColumn> force_columns(Source source);

@@ -110,14 +110,14 @@ double time_of_last_event(const StudyStart& start, double seconds, const Stop& s
   const int torn = simulation.tears().torn_count();
   // Less than the weight of a particle is no pull: springs of a cloth that falls freely carry rounding errors.
   const ForceSummary first = simulation.forces(Reduction::maximum);
-  double strongest = std::max(first.F_s, first.F_g), news = 0;
+  double strongest = std::max(first["F_s"], first["F_g"]), news = 0;
   for (int look = 1; look <= news_looks; ++look) {
     for (int step = 0; step < steps; ++step) {
       advance_study(simulation, 1, stop);
       const bool touches = bodies && !simulation.engine().contacts().empty();
       if (touches || simulation.tears().torn_count() > torn || simulation.divergence()) return seconds;
     }
-    const double pull = simulation.forces(Reduction::maximum).F_s;
+    const double pull = simulation.forces(Reduction::maximum)["F_s"];
     if (pull > 2 * strongest) strongest = pull, news = seconds * look / news_looks;
   }
   return news;

@@ -4,16 +4,12 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "core/cloth/state.h"
 #include "core/forces/readout.h"
-#include "core/forces/spring-inl.h"
-#include "core/forces/wind-inl.h"
 
 namespace tyglab {
 namespace {
-using namespace HWY_NAMESPACE;  // the formulas for one double
 
 class Reader {
  public:
@@ -23,13 +19,12 @@ class Reader {
   EnergyReading read(const Held& held) const {
     EnergyReading sum;
     add_particles(held, sum);
-    if (p_.kind == Kind::one_weight) {
-      add_weight(sum);
-      return sum;
-    }
-    for (int d = 0; d < int(directions.size()); ++d)
-      for (int i = 0; i + directions[std::size_t(d)].di < lattice_.rows; ++i) add_row(d, i, sum);
-    if (p_.W != glm::dvec3(0)) add_wind(sum.power);
+    if (p_.kind == Kind::cloth)
+      for (int d = 0; d < int(directions.size()); ++d)
+        for (int i = 0; i + directions[std::size_t(d)].di < lattice_.rows; ++i) add_row(d, i, sum);
+    for_each_stencil(p_, [&](const Force& force, const Stencil& stencil) {
+      if (!by_rows(force)) add(force, stencil, sum);
+    });
     if (held.particle >= 0) {
       const ParticleForces f =
           forces_on_particle(p_, tears_, state_, held.particle / lattice_.columns, held.particle % lattice_.columns);
@@ -50,13 +45,33 @@ class Reader {
     for (std::size_t n = 0; n < all; ++n) heights += state_.x.y[n];
     if (held.particle >= 0) squares -= glm::dot(v(std::size_t(held.particle)), v(std::size_t(held.particle)));
     sum.energy.kinetic = p_.m / 2 * squares;
-    sum.energy.gravity = p_.m * p_.g * heights;
+    sum.energy.of[force::gravity] = p_.m * p_.g * heights;
   }
 
-  void add_weight(EnergyReading& sum) const {
-    const double away = state_.x.y[0] - p_.x_0.y, speed = state_.v.y[0];
-    sum.energy.stretch = p_.k / 2 * away * away;
-    sum.power.damping = -p_.k_d * speed * speed;
+  /// Whether add_particles() or add_row() has added it.
+  bool by_rows(const Force& force) const {
+    if (&force == &force::gravity) return true;
+    return p_.kind == Kind::cloth && (&force == &force::stretch || &force == &force::bend || &force == &force::damping);
+  }
+
+  /// One stencil at all its owners.
+  void add(const Force& force, const Stencil& stencil, EnergyReading& sum) const {
+    double energy = 0, power = 0;
+    for (int i = 0; i < lattice_.rows; ++i)
+      for (int j = 0; j < lattice_.columns; ++j) {
+        if (!stencil.acts(tears_, i, j)) continue;
+        Points points;
+        for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
+          const std::size_t p =
+              std::size_t(i + stencil.at[n].di) * lattice_.columns + std::size_t(j + stencil.at[n].dj);
+          points.x[n] = x(p), points.v[n] = v(p);
+        }
+        ForceAction action;
+        force.act(p_, stencil, points, action);
+        energy += action.energy;
+        for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) power += glm::dot(action.F[n], points.v[n]);
+      }
+    (force.conserves ? sum.energy.of : sum.power.of)[force] += force.conserves ? energy : power;
   }
 
   void add_row(int d, int i, EnergyReading& sum) const {
@@ -79,28 +94,8 @@ class Reader {
       found.longer += part.longer, found.shorter += part.shorter, found.speed += part.speed;
       j = next + 1;
     }
-    if (to.bending) {
-      sum.energy.bending += p_.k_b / 2 * found.shorter;
-    } else {
-      sum.energy.stretch += p_.k_s / 2 * found.longer;
-      sum.power.damping -= p_.k_d * found.speed;
-    }
-  }
-
-  void add_wind(Power& power) const {
-    for (int i = 0; i + 1 < lattice_.rows; ++i)
-      for (int j = 0; j + 1 < lattice_.columns; ++j)
-        for (int which = 0; which < 2; ++which) {
-          if (!tears_.triangle_whole(i, j, which)) continue;
-          glm::dvec3 corner[3], speed{0};
-          for (int n = 0; n < 3; ++n) {
-            const Corner& at = quad_triangles[std::size_t((i + j) & 1)][std::size_t(which)][std::size_t(n)];
-            const std::size_t p = std::size_t(i + at.di) * lattice_.columns + std::size_t(j + at.dj);
-            corner[n] = x(p), speed += v(p);
-          }
-          const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-          power.wind += glm::dot(wind_on_corner(normal, p_.W / 3.0, std::numeric_limits<double>::min()), speed);
-        }
+    sum.energy.of[spring_force(to)] += spring_constant(p_, to) / 2 * (to.bending ? found.shorter : found.longer);
+    if (!to.bending) sum.power.of[force::damping] -= p_.k_d * found.speed;
   }
 
   const Preset& p_;

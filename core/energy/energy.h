@@ -5,20 +5,30 @@
 
 #include "core/cloth/state.h"
 #include "core/engines/engine.h"
+#include "core/forces/force.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
-/// J: kinetic energy of the particles (without the held one), potential energy of the springs (½ k (|x_ij| - rest)²
-/// while they act) and of gravity, which is zero at y = 0.
+/// J: kinetic energy of the particles (without the held one), and the potential energy of each force that has one. That
+/// of gravity is zero at y = 0.
 struct Energy {
-  double kinetic = 0, stretch = 0, bending = 0, gravity = 0;
-  double total() const { return kinetic + stretch + bending + gravity; }
+  double kinetic = 0;
+  PerForce<double> of;
+  /// That of internal forces.
+  double elastic() const {
+    return of.sum([](const Force& force) { return force.conserves && force.group == Force::Group::internal; });
+  }
+  double total() const {
+    return kinetic + of.sum([](const Force& force) { return force.conserves; });
+  }
 };
 
-/// W: energy that the cloth gains per second. That of damping is never above 0; pins do no work.
+/// W: energy that the cloth gains per second by forces that have no energy of their own, and by the hand. That of
+/// damping is never above 0; pins do no work.
 struct Power {
-  double damping = 0, wind = 0, hand = 0;
+  PerForce<double> of;
+  double hand = 0;
 };
 
 struct EnergyReading {
@@ -26,8 +36,8 @@ struct EnergyReading {
   Power power;
 };
 
-/// `state`: dense, with velocities at the time of the positions. One pass over it, in SIMD if nothing is torn and there
-/// is no wind.
+/// `state`: dense, with velocities at the time of the positions. One pass over it for each force; those of springs are
+/// in SIMD where nothing is torn.
 EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held);
 
 // Sums over the springs of one direction that a row of particles owns, in SIMD: the inner loop of the energy.

@@ -58,18 +58,20 @@ void Ledger::begin(const EnergyReading& now, double gravity_scale, double t) {
   began_ = t;
   now_ = now.energy;
   start_ = now.energy.total();
-  own_scale_ = now.energy.kinetic + now.energy.stretch + now.energy.bending + gravity_scale;
+  own_scale_ = now.energy.kinetic + now.energy.elastic() + gravity_scale;
   restart(now.power);
 }
 
 void Ledger::restart(const Power& power) {
-  damping_.restart(power.damping), wind_.restart(power.wind), hand_.restart(power.hand);
+  for (const Force* force : force::all) works_[*force].restart(power.of[*force]);
+  hand_.restart(power.hand);
 }
 
 void Ledger::step(const EnergyReading& now, double h, double contact, double tearing) {
   now_ = now.energy;
   contact_ += contact, tearing_ += tearing;
-  damping_.add(now.power.damping, h), wind_.add(now.power.wind, h), hand_.add(now.power.hand, h);
+  for (const Force* force : force::all) works_[*force].add(now.power.of[*force], h);
+  hand_.add(now.power.hand, h);
   // Impacts and tears make what forces do jump: no polynomial reaches over them.
   if (contact != 0 || tearing != 0) restart(now.power);
 }
@@ -85,8 +87,12 @@ LedgerReading Ledger::reading() const {
   LedgerReading out;
   out.energy = now_;
   out.began = began_, out.start = start_;
-  out.works = {damping_.total(), contact_, tearing_, wind_.total(), hand_.total() + grabbed_, edits_};
-  out.scale = own_scale_ + std::abs(out.works.wind) + std::abs(out.works.hand) + std::abs(out.works.edits);
+  out.works = {{}, contact_, tearing_, hand_.total() + grabbed_, edits_};
+  out.scale = own_scale_ + std::abs(out.works.hand) + std::abs(out.works.edits);
+  for (const Force* force : force::all) {
+    out.works.of[*force] = works_[*force].total();
+    if (force->group == Force::Group::external) out.scale += std::abs(out.works.of[*force]);
+  }
   return out;
 }
 

@@ -34,13 +34,14 @@ class RunningIntegral {
 
 /// Work done on the cloth since the ledger began, J; negative where the cloth lost energy.
 struct WorkTotals {
-  double damping = 0;
-  double contact = 0;  ///< with bodies: impacts and friction
-  double tearing = 0;  ///< energy of springs that broke or were cut
-  double wind = 0;
+  PerForce<double> of;  ///< forces that have no energy of their own
+  double contact = 0;   ///< with bodies: impacts and friction
+  double tearing = 0;   ///< energy of springs that broke or were cut
   double hand = 0;
   double edits = 0;  ///< jumps when constants, pins or the method change
-  double total() const { return damping + contact + tearing + wind + hand + edits; }
+  double total() const {
+    return of.sum([](const Force&) { return true; }) + contact + tearing + hand + edits;
+  }
 };
 
 /// The state of the ledger, J.
@@ -50,7 +51,7 @@ struct LedgerReading {
   double start = 0;  ///< total then
   WorkTotals works;
   /// The scale of unexplained(): the energy that the cloth had in motion and springs, what gravity can give it over its
-  /// own length, and the work of wind, hand and edits.
+  /// own length, and the work of external forces, hand and edits.
   double scale = 0;
   /// What the integrator added (> 0) or removed.
   double unexplained() const { return energy.total() - start - works.total(); }
@@ -82,7 +83,8 @@ class Ledger {
   Energy now_;
   double began_ = 0, start_ = 0, own_scale_ = 0;
   double contact_ = 0, tearing_ = 0, edits_ = 0, grabbed_ = 0;
-  RunningIntegral damping_, wind_, hand_;
+  PerForce<RunningIntegral> works_;
+  RunningIntegral hand_;
 };
 
 // Updates the energy ledger of a simulation after every step.

@@ -1,16 +1,9 @@
 #include "core/forces/readout.h"
 
-#include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
-#include <limits>
-
-#include "core/forces/spring-inl.h"
-#include "core/forces/wind-inl.h"
 
 namespace tyglab {
 namespace {
-using namespace HWY_NAMESPACE;  // the formulas for one double
 
 struct StateLook {
   const State& state;
@@ -23,70 +16,64 @@ struct StateLook {
   }
 };
 
-template <class Look>
-SpringForce spring_force(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj) {
-  const glm::dvec3 x_ij = look.x(oi, oj) - look.x(i, j);
-  const double r2 = glm::dot(x_ij, x_ij), rest = d.rest * p.L;
-  SpringForce spring{oi, oj, d.bending, std::sqrt(r2), rest};
-  if (d.bending) {
-    spring.F = bend_factor(Spring<double>::of(p.k_b, rest, std::identity()), r2) * x_ij;
-  } else {
-    spring.F = stretch_factor(Spring<double>::of(p.k_s, rest, std::identity()), r2) * x_ij;
-    spring.F_d = -p.k_d * (look.v(i, j) - look.v(oi, oj));
-  }
-  return spring;
-}
-
-/// Calls visit(SpringForce) for every whole spring at a particle.
+/// Calls visit(force, stencil, owner's i and j, points, action, which of the points the particle is) for everything
+/// that acts on a particle.
 template <class Look, class Visit>
-void each_spring(const Preset& p, const Tears& tears, const Look& look, int i, int j, const Visit& visit) {
-  const Lattice& lattice = tears.lattice();
-  for (int d = 0; d < int(directions.size()); ++d) {
-    const Direction& dir = directions[d];
-    if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
-      visit(spring_force(p, look, dir, i, j, i + dir.di, j + dir.dj));
-    const int oi = i - dir.di, oj = j - dir.dj;
-    if (lattice.has_spring(d, oi, oj) && tears.whole(d, oi, oj)) visit(spring_force(p, look, dir, i, j, oi, oj));
-  }
-}
-
-template <class Look>
-void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int j, ParticleForces& sum) {
-  const Lattice& lattice = tears.lattice();
-  for (int qi = i - 1; qi <= i; ++qi)
-    for (int qj = j - 1; qj <= j; ++qj)
-      for (int which = 0; which < 2; ++which) {
-        if (!lattice.contains(qi, qj) || !lattice.contains(qi + 1, qj + 1)) continue;
-        const auto& corners = quad_triangles[(qi + qj) & 1][which];
-        bool mine = false;
-        glm::dvec3 x[3];
-        for (int n = 0; n < 3; ++n) {
-          x[n] = look.x(qi + corners[n].di, qj + corners[n].dj);
-          mine |= qi + corners[n].di == i && qj + corners[n].dj == j;
-        }
-        if (!mine || !tears.triangle_whole(qi, qj, which)) continue;
-        sum.F_wind += wind_on_corner(cross(x[1] - x[0], x[2] - x[0]), p.W / 3.0, std::numeric_limits<double>::min());
+void for_each_action(const Preset& p, const Tears& tears, const Look& look, int i, int j, const Visit& visit) {
+  for_each_stencil(p, [&](const Force& force, const Stencil& stencil) {
+    for (std::size_t own = 0; own < std::size_t(stencil.points); ++own) {
+      const int oi = i - stencil.at[own].di, oj = j - stencil.at[own].dj;
+      if (!tears.lattice().contains(oi, oj) || !stencil.acts(tears, oi, oj)) continue;
+      Points points;
+      for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
+        const int pi = oi + stencil.at[n].di, pj = oj + stencil.at[n].dj;
+        points.x[n] = look.x(pi, pj), points.v[n] = look.v(pi, pj);
       }
+      ForceAction action;
+      force.act(p, stencil, points, action);
+      visit(force, stencil, oi, oj, points, action, own);
+    }
+  });
 }
 
 template <class Look>
 ParticleForces forces_at(const Preset& p, const Tears& tears, const Look& look, int i, int j) {
   ParticleForces sum;
-  sum.F_g = {0, -p.m * p.g, 0};
-  if (p.kind == Kind::one_weight) {
-    sum.F_s.y = hooke(look.x(0, 0).y, p.x_0.y, p.k, 0.0, 0.0);
-    sum.F_d.y = -p.k_d * look.v(0, 0).y;
-    return sum;
-  }
-  each_spring(p, tears, look, i, j, [&](const SpringForce& spring) {
-    (spring.bending ? sum.F_b : sum.F_s) += spring.F;
-    sum.F_d += spring.F_d;
-  });
-  if (p.W != glm::dvec3(0)) add_wind(p, tears, look, i, j, sum);
+  for_each_action(p, tears, look, i, j,
+                  [&](const Force& force, const Stencil&, int, int, const Points&, const ForceAction& action,
+                      std::size_t own) { sum[force] += action.F[own]; });
   return sum;
 }
 
 }  // namespace
+
+std::span<const std::string_view> force_keys() {
+  static const auto keys = [] {
+    std::array<std::string_view, force::all.size() + 3> all{"F"};
+    for (std::size_t n = 0; n < force::all.size(); ++n) all[n + 1] = force::all[n]->symbol;
+    all[force::all.size() + 1] = "F_int", all[force::all.size() + 2] = "F_ext";
+    return all;
+  }();
+  return keys;
+}
+
+std::vector<std::string_view> shown_force_keys(const Preset& preset) {
+  std::vector<std::string_view> keys(force_keys().begin(), force_keys().end());
+  std::erase_if(keys, [&](std::string_view key) {
+    return std::any_of(force::all.begin(), force::all.end(), [&](const Force* force) {
+      return force->symbol == key && !force->in_report && !force->on(preset);
+    });
+  });
+  return keys;
+}
+
+ForcesByKey<glm::dvec3> by_key(const ParticleForces& on) {
+  ForcesByKey<glm::dvec3> all;
+  std::copy(on.of.begin(), on.of.end(), all.values.begin() + 1);
+  all.values[force::all.size() + 1] = on.F_int(), all.values[force::all.size() + 2] = on.F_ext();
+  all.values[0] = on.F_int() + on.F_ext();
+  return all;
+}
 
 ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const State& state, int i, int j) {
   return forces_at(p, tears, StateLook{state, tears.lattice().columns}, i, j);
@@ -96,11 +83,21 @@ ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Nei
   return forces_at(p, tears, near, i, j);
 }
 
-std::vector<SpringForce> springs_on_particle(const Preset& p, const Tears& tears, const Neighborhood& near, int i,
-                                             int j) {
-  std::vector<SpringForce> springs;
-  each_spring(p, tears, near, i, j, [&](const SpringForce& spring) { springs.push_back(spring); });
-  return springs;
+std::vector<StencilForce> stencils_on_particle(const Preset& p, const Tears& tears, const Neighborhood& near, int i,
+                                               int j) {
+  std::vector<StencilForce> all;
+  for_each_action(p, tears, near, i, j,
+                  [&](const Force& force, const Stencil& stencil, int oi, int oj, const Points& points,
+                      const ForceAction& action, std::size_t own) {
+                    if (force.group != Force::Group::internal) return;
+                    glm::dvec3 d{0};
+                    for (std::size_t n = 0; n < std::size_t(stencil.points); ++n)
+                      d += stencil.at[n].weight * points.x[n];
+                    const auto& other = stencil.at[own == 0 ? std::size_t(stencil.points - 1) : 0];
+                    all.push_back({&force, &stencil, oi, oj, oi + other.di, oj + other.dj, glm::length(d),
+                                   stencil.rest * p.L, action.F[own]});
+                  });
+  return all;
 }
 
 }  // namespace tyglab

@@ -1,32 +1,63 @@
-// The forces on one particle for panels and plots, computed in double from a state. The engines compute these formulas
-// (spring-inl.h, wind-inl.h) spring by spring.
+// The forces on one particle for panels and plots: loops over the table of forces (force.h), in double.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdlib>
 #include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/cloth/state.h"
+#include "core/forces/force.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
-/// Forces on a particle by kind, N.
-struct ParticleForces {
-  glm::dvec3 F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0};
-  glm::dvec3 F_int() const { return F_s + F_b + F_d; }
-  /// Without the force of the hand.
-  glm::dvec3 F_ext() const { return F_g + F_wind; }
+/// Forces on a particle by kind, N, without the force of the hand.
+struct ParticleForces : PerForce<glm::dvec3> {
+  glm::dvec3 F_int() const {
+    return sum([](const Force& force) { return force.group == Force::Group::internal; });
+  }
+  glm::dvec3 F_ext() const {
+    return sum([](const Force& force) { return force.group == Force::Group::external; });
+  }
 };
 
-/// The force of one spring on a particle.
-struct SpringForce {
-  int i, j;  ///< the particle at the other end
-  bool bending;
-  double length, rest;      ///< m
-  glm::dvec3 F{0}, F_d{0};  ///< N: F_s or F_b, and the damping of a stretch spring
+/// Keys of the notation table's forces: "F", one a force of the table, "F_int" and "F_ext".
+std::span<const std::string_view> force_keys();
+/// Which of them a panel shows: those of table B.1, and others while they act.
+std::vector<std::string_view> shown_force_keys(const Preset& preset);
+
+/// A force by those keys. T: a vector on one particle, or a size.
+template <class T>
+struct ForcesByKey {
+  std::array<T, force::all.size() + 3> values{};  ///< in the order of force_keys(), N
+  const T& operator[](std::string_view key) const { return values[std::size_t(place(key))]; }
+  /// Adds the force of the hand, which is external.
+  void give_hand(const T& force) { values.front() += force, values.back() += force; }
+
+ private:
+  static std::ptrdiff_t place(std::string_view key) {
+    const auto keys = force_keys();
+    const auto at = std::find(keys.begin(), keys.end(), key);
+    assert(at != keys.end());
+    return at - keys.begin();
+  }
+};
+/// Without the force of the hand.
+ForcesByKey<glm::dvec3> by_key(const ParticleForces& forces);
+
+/// What one stencil of an internal force does to a particle.
+struct StencilForce {
+  const Force* force;
+  const Stencil* stencil;
+  int i, j;              ///< its owner
+  int other_i, other_j;  ///< the particle at the other end, of a spring
+  double length, rest;   ///< of d, m
+  glm::dvec3 F{0};       ///< N
 };
 
 /// `state`: dense, with velocities at the time of the positions.
@@ -54,8 +85,8 @@ class Neighborhood {
 };
 /// The same from its surroundings: (i, j) is the particle in the middle or a neighbor of it.
 ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const Neighborhood& near, int i, int j);
-/// All whole springs at a particle of a cloth, one by one.
-std::vector<SpringForce> springs_on_particle(const Preset& preset, const Tears& tears, const Neighborhood& near, int i,
-                                             int j);
+/// All whole stencils of internal forces at a particle of a cloth, one by one.
+std::vector<StencilForce> stencils_on_particle(const Preset& preset, const Tears& tears, const Neighborhood& near,
+                                               int i, int j);
 
 }  // namespace tyglab

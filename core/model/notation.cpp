@@ -95,13 +95,14 @@ const std::array<BodyRow, 5> body_rows{{
      "0: the inward velocity is removed; 1: it is reversed."},
 }};
 
-const std::array<Variable, 10> variable_rows{{
+const std::array<Variable, 11> variable_rows{{
     {"F", "F", "Total force", "Total kraft", "N", "2.2", "All forces on the particle."},
     {"F_s", "F_s", "Stretching force", "Töjningskraft", "N", "2.5", "Sum over the eight stretch springs."},
     {"F_b", "F_b", "Bending force", "Böjningskraft", "N", "2.7", "Sum over the four bending springs."},
     {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
     {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downward."},
-    {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2", "F_s + F_b + F_d."},
+    {"F_wind", "F_wind", "Wind force", "Vindkraft", "N", "2.16", "Sum over the triangles at the particle."},
+    {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2", "Forces between particles: F_s + F_b + F_d."},
     {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind and the hand."},
     {"x", "x", "Position", "Position", "m", "2.4", "Position of the particle."},
     {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Velocity of the particle, at the time of its position."},

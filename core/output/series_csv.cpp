@@ -64,30 +64,50 @@ std::vector<double> series_values(Simulation& simulation) {
           mean,
           y_min,
           y_max,
-          total.F_s,
-          total.F_b,
-          total.F_d,
-          total.F,
-          most.F_s,
-          most.F_b,
-          most.F_d,
-          most.F,
+          total["F_s"],
+          total["F_b"],
+          total["F_d"],
+          total["F"],
+          most["F_s"],
+          most["F_b"],
+          most["F_d"],
+          most["F"],
           double(simulation.tears().torn_count())};
 }
 
+namespace {
+
+/// Calls visit(name, value) for each entry of the ledger: energies, works, and what no force explains.
+template <class Visit>
+void for_each_entry(const LedgerReading& r, const Visit& visit) {
+  const auto works = [&](Force::Group group) {
+    for (const Force* force : force::all)
+      if (!force->conserves && force->group == group) visit(force->name, r.works.of[*force]);
+  };
+  visit("kinetic", r.energy.kinetic);
+  for (const Force* force : force::all)
+    if (force->conserves) visit(force->name, r.energy.of[*force]);
+  works(Force::Group::internal);
+  visit("contact", r.works.contact), visit("tearing", r.works.tearing);
+  works(Force::Group::external);
+  visit("hand", r.works.hand), visit("edits", r.works.edits);
+  visit("unexplained", r.unexplained()), visit("scale", r.scale);
+}
+
+}  // namespace
+
 std::vector<SeriesColumn> ledger_columns() {
   std::vector<SeriesColumn> columns;
-  for (const char* name : {"kinetic", "stretch", "bending", "gravity", "damping", "contact", "tearing", "wind", "hand",
-                           "edits", "unexplained", "scale"})
-    columns.push_back({name, "J"});
+  for_each_entry({}, [&](std::string_view name, double) { columns.push_back({std::string(name), "J"}); });
   columns.push_back({"share", ""});
   return columns;
 }
 
 std::vector<double> ledger_values(const LedgerReading& r) {
-  const WorkTotals& w = r.works;
-  return {r.energy.kinetic, r.energy.stretch, r.energy.bending, r.energy.gravity, w.damping, w.contact, w.tearing,
-          w.wind,           w.hand,           w.edits,          r.unexplained(),  r.scale,   r.share()};
+  std::vector<double> values;
+  for_each_entry(r, [&](std::string_view, double value) { values.push_back(value); });
+  values.push_back(r.share());
+  return values;
 }
 
 }  // namespace tyglab

@@ -154,15 +154,15 @@ TEST_CASE("wind on a flat cloth: each whole triangle catches N (N·W), a third a
   Simulation simulation(preset);
   glm::dvec3 sum(0);
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 5; ++j) sum += simulation.particle(i, j).F_wind;
+    for (int j = 0; j < 5; ++j) sum += simulation.particle(i, j)["F_wind"];
   }
   // It hangs in the plane z = 0, so N = ±z and of W only the z component counts: 2·3·4 triangles.
   CHECK(glm::length(sum - glm::dvec3(0, 0, 24 * 0.6)) < 1e-12);
   // In the diamond pattern an inner particle is in eight triangles where i + j is even, in four where it is odd.
-  CHECK(simulation.particle(1, 1).F_wind.z == doctest::Approx(8 * 0.6 / 3));
-  CHECK(simulation.particle(1, 2).F_wind.z == doctest::Approx(4 * 0.6 / 3));
-  CHECK(simulation.particle(0, 0).F_wind.z == doctest::Approx(2 * 0.6 / 3));
-  CHECK(simulation.particle(0, 4).F_wind.z == doctest::Approx(2 * 0.6 / 3));
+  CHECK(simulation.particle(1, 1)["F_wind"].z == doctest::Approx(8 * 0.6 / 3));
+  CHECK(simulation.particle(1, 2)["F_wind"].z == doctest::Approx(4 * 0.6 / 3));
+  CHECK(simulation.particle(0, 0)["F_wind"].z == doctest::Approx(2 * 0.6 / 3));
+  CHECK(simulation.particle(0, 4)["F_wind"].z == doctest::Approx(2 * 0.6 / 3));
 }
 
 }  // namespace tyglab::closed_form_test

@@ -163,9 +163,11 @@ Json colors(const Ui& ui) {
 Json inside(const Ui& ui) {
   const StepTrace* trace = ui.session.inspector.shown();
   if (trace == nullptr) return nullptr;
+  const auto& stencils = trace->stages.front().stencils;
   return {{"site", {trace->i, trace->j}},
           {"evaluations", trace->stages.size()},
-          {"springs", trace->stages.front().springs.size()},
+          {"springs",
+           std::count_if(stencils.begin(), stencils.end(), [](const StencilForce& s) { return s.force->conserves; })},
           {"x", vector(trace->x_after)}};
 }
 

@@ -117,13 +117,13 @@ class StressRun {
     if (!finite(state.v)) fail("a velocity is not finite after step " + std::to_string(simulation_->steps()));
     const Lattice& lattice = simulation_->lattice();
     const ParticleReadout p = simulation_->particle(random_.below(lattice.rows), random_.below(lattice.columns));
-    if (!finite(p.F) || !finite(p.x) || !finite(p.v) || !finite(p.a)) fail("a particle's readout is not finite");
+    if (!finite(p["F"]) || !finite(p.x) || !finite(p.v) || !finite(p.a)) fail("a particle's readout is not finite");
     if (!finite(simulation_->time())) fail("the time is not finite");
     const Energy energy = simulation_->energy().energy;
     if (!finite(energy.total()) || !finite(energy.kinetic)) fail("the energy is not finite");
     for (const Reduction reduction : {Reduction::sum, Reduction::maximum}) {
       const ForceSummary all = simulation_->forces(reduction);
-      for (const double force : {all.F_s, all.F_b, all.F_d, all.F_g, all.F_wind, all.F_int, all.F_ext, all.F})
+      for (const double force : all.values)
         if (!finite(force)) fail("a force is not finite");
     }
   }

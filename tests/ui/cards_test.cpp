@@ -64,9 +64,9 @@ TEST_CASE("the card keeps the ledger while it is open: energy moves from height 
   CHECK_FALSE(window.cloth().ledger().has_value());
   window.click("plots.Energy");
   REQUIRE(window.cloth().ledger().has_value());
-  window.until([&] { return window.cloth().ledger()->works.damping < -1e-4; }, "damping to take energy");
+  window.until([&] { return window.cloth().ledger()->works.of[force::damping] < -1e-4; }, "damping to take energy");
   CHECK(std::abs(window.cloth().ledger()->share()) < 0.01);
-  CHECK(window.cloth().ledger()->works.wind == 0);
+  CHECK(window.cloth().ledger()->works.of[force::wind] == 0);
   const Series& curves = window.session.recorded.energy;  // no copy is needed for them
   REQUIRE(curves.size() > 5);
   CHECK(curves.column(0).back() > 0);
@@ -174,7 +174,7 @@ TEST_CASE("paused, the picked particle's next step is written out; → makes it,
   CHECK(shown()->i == picked.i);
   CHECK(shown()->j == picked.j);
   CHECK(shown()->stages.size() == 1);  // Verlet looks once
-  CHECK(shown()->stages.front().springs.size() == 12);
+  CHECK(shown()->stages.front().stencils.size() == 20);
   const glm::dvec3 foretold = shown()->x_after;
   window.rest();
   const std::int64_t before = window.steps();

@@ -43,7 +43,7 @@ TEST_CASE("what is left of numbers that cancel is 0 in the picked particle's rea
                        }});
   window.pause();
   window.frames(2);
-  const double F_s = window.cloth().particle(0, 0).F_s.y;
+  const double F_s = window.cloth().particle(0, 0)["F_s"].y;
   REQUIRE(F_s != 0);
   CHECK_FALSE(window.drew("10⁻¹"));
 }

@@ -75,12 +75,11 @@ TEST_CASE("an audience reads the axes, every arrow has its symbol, and the cloth
       const std::string name(key);
       const double scale = window.ui.arrow_scales[name == "v" ? 1 : name == "a" ? 2 : 0];
       // In perspective one that points at the eye is short; those that are long for sure are asked for.
-      const glm::dvec3 x = r.x, to = r.x + glm::normalize(vector_of(r, key)) * glm::length(vector_of(r, key)) / scale *
-                                               90.0 * double(window.ui.theme.scale) *
+      const glm::dvec3 x = r.x, to = r.x + glm::normalize(r[key]) * glm::length(r[key]) / scale * 90.0 *
+                                               double(window.ui.theme.scale) *
                                                window.scene.camera.metres_per_pixel(r.x, view.y);
       const auto from = window.scene.camera.project(x, view), end = window.scene.camera.project(to, view);
-      if (glm::length(vector_of(r, key)) == 0 || !from || !end || glm::distance(*from, *end) < window.ui.theme.px(11))
-        continue;
+      if (glm::length(r[key]) == 0 || !from || !end || glm::distance(*from, *end) < window.ui.theme.px(11)) continue;
       ++drawn;
       CAPTURE(name);
       CHECK(window.ui.placing.find("label 0 " + std::string(variable(key).symbol)) != nullptr);

@@ -178,7 +178,7 @@ TEST_CASE("before the first step the read-out shows the velocity that the scene 
       const int last = simulation.lattice().rows - 1;
       const auto as_begun = [&] {
         CHECK(simulation.particle(last, 0).v == starting_velocity(of));
-        CHECK(simulation.particle(last, 0).F_d == glm::dvec3(0));
+        CHECK(simulation.particle(last, 0)["F_d"] == glm::dvec3(0));
         CHECK(test::velocity(simulation.read(), last * simulation.lattice().columns) == starting_velocity(of));
       };
       as_begun();

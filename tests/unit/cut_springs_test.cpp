@@ -54,7 +54,7 @@ TEST_CASE("after a cut internal forces still sum to zero") {
     double largest = 0;
     for (int i = 0; i < 8; ++i)
       for (int j = 0; j < 9; ++j) {
-        const glm::dvec3 F = simulation.particle(i, j).F_int;
+        const glm::dvec3 F = simulation.particle(i, j)["F_int"];
         sum += F, largest = std::max(largest, glm::length(F));
       }
     CHECK(glm::length(sum) < 1e-12 * largest * 72);

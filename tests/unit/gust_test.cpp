@@ -107,7 +107,7 @@ TEST_CASE("what is read in a gust is the wind that blows: the force on a particl
   steady.gust = 0, steady.W = now;
   Simulation other(steady);
   test::load(other, simulation.read());
-  CHECK(glm::length(other.particle(4, 4).F_wind - simulation.particle(4, 4).F_wind) < 1e-12);
+  CHECK(glm::length(other.particle(4, 4)["F_wind"] - simulation.particle(4, 4)["F_wind"]) < 1e-12);
   const StepTrace trace = trace_step(simulation, 4, 4);
   simulation.advance(1);
   CHECK(glm::length(trace.x_after - simulation.positions().at(4, 4)) < 1e-13);

@@ -67,9 +67,9 @@ TEST_CASE("a cloth's energy is that of its parts") {
   CHECK(e.kinetic == doctest::Approx(6 * 0.5 / 2 * 9));
   // Along rows 4, along columns 3, diagonals 4, every one twice its length.
   const double L = preset.L;
-  CHECK(e.stretch == doctest::Approx(10 / 2.0 * (7 * L * L + 4 * 2 * L * L)));
-  CHECK(e.bending == 0);
-  CHECK(e.gravity == doctest::Approx(0.5 * 2 * (3 * 1 + 3 * (1 - 2 * L))));
+  CHECK(e.of[force::stretch] == doctest::Approx(10 / 2.0 * (7 * L * L + 4 * 2 * L * L)));
+  CHECK(e.of[force::bend] == 0);
+  CHECK(e.of[force::gravity] == doctest::Approx(0.5 * 2 * (3 * 1 + 3 * (1 - 2 * L))));
 }
 
 TEST_CASE("energies and powers are those of the forces on each particle") {
@@ -94,13 +94,13 @@ TEST_CASE("energies and powers are those of the forces on each particle") {
       for (int j = 0; j < lattice.columns; ++j) {
         const ParticleForces f = forces_on_particle(preset, tears, state, i, j);
         const glm::dvec3 v = test::velocity(state, std::size_t(i) * lattice.columns + j);
-        conservative += glm::dot(f.F_s + f.F_b + f.F_g, v);
-        damping += glm::dot(f.F_d, v), wind += glm::dot(f.F_wind, v);
+        conservative += glm::dot(f[force::stretch] + f[force::bend] + f[force::gravity], v);
+        damping += glm::dot(f[force::damping], v), wind += glm::dot(f[force::wind], v);
       }
     const Power power = read_energy(preset, tears, state, Held{}).power;
     CHECK(rise == doctest::Approx(-conservative).epsilon(1e-6));
-    CHECK(power.damping == doctest::Approx(damping).epsilon(1e-9));
-    CHECK(power.wind == doctest::Approx(wind).epsilon(1e-9));
+    CHECK(power.of[force::damping] == doctest::Approx(damping).epsilon(1e-9));
+    CHECK(power.of[force::wind] == doctest::Approx(wind).epsilon(1e-9));
   }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("a body's impact and friction are contact's, and leave little unexplai
     const LedgerReading ledger = *simulation.ledger();
     CHECK(ledger.works.contact < -0.5 * ledger.start);
     CHECK(std::abs(ledger.share()) < 2e-3);
-    CHECK(ledger.works.wind == 0);
+    CHECK(ledger.works.of[force::wind] == 0);
     CHECK(ledger.works.edits == 0);
   }
 }
@@ -255,7 +255,7 @@ TEST_CASE("a ledger changes no bit of the motion, and the one weight has one") {
   Simulation one(weight);
   one.enable_ledger(true);
   one.advance(500);
-  CHECK(one.ledger()->works.damping < 0);
+  CHECK(one.ledger()->works.of[force::damping] < 0);
   CHECK(std::abs(one.ledger()->share()) < 1e-6);
 }
 

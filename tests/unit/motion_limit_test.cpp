@@ -41,10 +41,8 @@ void check_bound(Simulation& simulation, int steps) {
   for (const Body& body : p.bodies)
     for (int n = 0; n < simulation.lattice().size(); ++n)
       pushes += std::pow(std::max(depth(body, test::position(simulation.read(), n)), 0.0), 2);
-  limit.begin({2 / p.m *
-                   (simulation.energy().energy.kinetic + simulation.energy().energy.stretch +
-                    simulation.energy().energy.bending),
-               0, std::sqrt(pushes)});
+  limit.begin(
+      {2 / p.m * (simulation.energy().energy.kinetic + simulation.energy().energy.elastic()), 0, std::sqrt(pushes)});
   for (int n = 0; n < steps; ++n) {
     simulation.advance(1);
     limit.pass(p.dt);

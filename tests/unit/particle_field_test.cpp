@@ -18,7 +18,7 @@ std::vector<float> field_of(ParticleField field, Simulation& cloth, int every = 
 }
 
 /// The stretch springs at a particle, by the read-out.
-std::vector<SpringForce> springs_at(Simulation& cloth, int i, int j) {
+std::vector<StencilForce> springs_at(Simulation& cloth, int i, int j) {
   const State& state = cloth.read();
   Neighborhood near(i, j);
   const Lattice& lattice = cloth.lattice();
@@ -28,8 +28,8 @@ std::vector<SpringForce> springs_at(Simulation& cloth, int i, int j) {
         const auto p = std::size_t(i + di) * std::size_t(lattice.columns) + std::size_t(j + dj);
         near.x(i + di, j + dj) = test::position(state, p), near.v(i + di, j + dj) = test::velocity(state, p);
       }
-  std::vector<SpringForce> springs = springs_on_particle(cloth.preset(), cloth.tears(), near, i, j);
-  std::erase_if(springs, [](const SpringForce& spring) { return spring.bending; });
+  std::vector<StencilForce> springs = stencils_on_particle(cloth.preset(), cloth.tears(), near, i, j);
+  std::erase_if(springs, [](const StencilForce& one) { return one.force != &force::stretch; });
   return springs;
 }
 
@@ -42,7 +42,7 @@ void check_springs(Simulation& cloth, double epsilon) {
     for (int j = 0; j < preset.columns; ++j) {
       double largest = 0, sum = 0;
       const auto springs = springs_at(cloth, i, j);
-      for (const SpringForce& spring : springs) {
+      for (const StencilForce& spring : springs) {
         largest = std::max(largest, glm::length(spring.F));
         sum += (spring.length - spring.rest) / spring.rest;
       }

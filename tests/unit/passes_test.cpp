@@ -257,7 +257,7 @@ TEST_CASE("tearing and the hand mean the same newtons as with other methods") {
     simulation.advance(2000);
     const double weight = preset.m * preset.g;
     CHECK(simulation.hand_force().y == doctest::Approx(-2 * weight).epsilon(1e-4));
-    CHECK(simulation.particle(1, 0).F_s.y == doctest::Approx(weight).epsilon(1e-4));
+    CHECK(simulation.particle(1, 0)["F_s"].y == doctest::Approx(weight).epsilon(1e-4));
   }
 }
 

@@ -183,7 +183,7 @@ TEST_CASE("xpbd: tearing and the hand mean the same newtons as with other method
   simulation.advance(20000);
   const double weight = preset.m * preset.g;
   CHECK(simulation.hand_force().y == doctest::Approx(-2 * weight).epsilon(1e-4));
-  CHECK(simulation.particle(1, 0).F_s.y == doctest::Approx(weight).epsilon(1e-4));
+  CHECK(simulation.particle(1, 0)["F_s"].y == doctest::Approx(weight).epsilon(1e-4));
 }
 
 }  // namespace tyglab::projection_test

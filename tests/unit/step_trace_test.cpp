@@ -47,18 +47,16 @@ TEST_CASE("the springs of a written-out step sum to the forces on the particle")
   const StepTrace trace = trace_step(simulation, middle, middle);
   REQUIRE(trace.stages.size() == 1);
   const TracedStage& stage = trace.stages.front();
-  CHECK(stage.springs.size() == 12);
-  glm::dvec3 F_s{0}, F_b{0}, F_d{0};
-  for (const SpringForce& spring : stage.springs) {
-    (spring.bending ? F_b : F_s) += spring.F;
-    F_d += spring.F_d;
-    if (!spring.bending && spring.length <= spring.rest) CHECK(glm::length(spring.F) == 0);
-    if (spring.bending && spring.length >= spring.rest) CHECK(glm::length(spring.F) == 0);
+  CHECK(stage.stencils.size() == 8 + 4 + 8);  // springs of both kinds, and damping
+  PerForce<glm::dvec3> sum;
+  for (const StencilForce& spring : stage.stencils) {
+    sum[*spring.force] += spring.F;
+    if (spring.force == &force::stretch && spring.length <= spring.rest) CHECK(glm::length(spring.F) == 0);
+    if (spring.force == &force::bend && spring.length >= spring.rest) CHECK(glm::length(spring.F) == 0);
   }
-  CHECK(glm::length(F_s - stage.forces.F_s) < 1e-15);
-  CHECK(glm::length(F_b - stage.forces.F_b) < 1e-15);
-  CHECK(glm::length(F_d - stage.forces.F_d) < 1e-15);
-  const glm::dvec3 F = F_s + F_b + F_d + stage.forces.F_ext();
+  for (const Force* force : {&force::stretch, &force::bend, &force::damping})
+    CHECK(glm::length(sum[*force] - stage.forces[*force]) < 1e-15);
+  const glm::dvec3 F = stage.forces.F_int() + stage.forces.F_ext();
   CHECK(glm::length(stage.a - F / preset.m) < 1e-9);
 }
 
@@ -73,7 +71,8 @@ TEST_CASE("what is pinned feels forces but none moves it; torn springs are gone"
   CHECK(trace.fixed);
   CHECK(glm::length(trace.stages.front().a) == 0);
   CHECK(trace.x_after == trace.x);
-  CHECK(trace.stages.front().springs.size() == 8);  // three upwards, and the bending spring that needs one of them
+  // Three upward, the bending spring that needs one of them, and the damping of those three are gone.
+  CHECK(trace.stages.front().stencils.size() == 20 - 3 - 1 - 3);
 }
 
 TEST_CASE("state vectors are called by what they are") {

@@ -143,23 +143,26 @@ void energy_curves(Ui& ui, ImVec2 size) {
 }  // namespace
 
 std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
-  return {
-      {EnergyKind::has, "kinetic", "½ m v² of every particle.", r.energy.kinetic},
-      {EnergyKind::has, "elastic, stretch", "½ k_s (|x_ij| − L)² of springs that pull.", r.energy.stretch},
-      {EnergyKind::has, "elastic, bending", "½ k_b (2L − |x_ij|)² of springs that push.", r.energy.bending},
-      {EnergyKind::has, height_row,
-       "m g y of every particle, from y = 0. Another origin would add a constant, so this row has no bar.",
-       r.energy.gravity},
-      {EnergyKind::has, total_row, "Sum of the energies above.", r.energy.total()},
-      {EnergyKind::works, "damping", "Work of F_d since the ledger began: never above 0.", r.works.damping},
-      {EnergyKind::works, "contact", "Removed by bodies: impacts and friction.", r.works.contact},
-      {EnergyKind::works, "tearing, cutting", "Energy of springs that tore or were cut.", r.works.tearing},
-      {EnergyKind::works, "wind", "Work of F_wind.", r.works.wind},
-      {EnergyKind::works, "hand", "Work of the hand.", r.works.hand},
-      {EnergyKind::works, "edits", "Jumps in energy when constants, pins or methods change.", r.works.edits},
-      {EnergyKind::unexplained, "added by the method",
-       "The remainder: energy that no force explains, so the integrator added or removed it.", r.unexplained()},
+  std::vector<EnergyRow> rows{{EnergyKind::has, "kinetic", "½ m v² of every particle.", r.energy.kinetic}};
+  for (const Force* force : force::all)
+    if (force->conserves) rows.push_back({EnergyKind::has, force->title, force->help, r.energy.of[*force]});
+  rows.push_back({EnergyKind::has, total_row, "Sum of the energies above.", r.energy.total()});
+  const auto add_works = [&](Force::Group group) {
+    for (const Force* force : force::all)
+      if (!force->conserves && force->group == group)
+        rows.push_back({EnergyKind::works, force->title, force->help, r.works.of[*force]});
   };
+  add_works(Force::Group::internal);
+  rows.push_back({EnergyKind::works, "contact", "Removed by bodies: impacts and friction.", r.works.contact});
+  rows.push_back({EnergyKind::works, "tearing, cutting", "Energy of springs that tore or were cut.", r.works.tearing});
+  add_works(Force::Group::external);
+  rows.push_back({EnergyKind::works, "hand", "Work of the hand.", r.works.hand});
+  rows.push_back(
+      {EnergyKind::works, "edits", "Jumps in energy when constants, pins or methods change.", r.works.edits});
+  rows.push_back({EnergyKind::unexplained, "added by the method",
+                  "The remainder: energy that no force explains, so the integrator added or removed it.",
+                  r.unexplained()});
+  return rows;
 }
 
 std::string share_text(const LedgerReading& reading) {

@@ -23,8 +23,12 @@ constexpr std::array<const char*, 1> force_scales{"log"};
 
 /// Where the names of the curves stand, px from the legend's corner.
 struct LegendPlaces {
-  std::array<ImVec2, force_keys.size()> at;
-  std::array<float, force_keys.size()> width;
+  struct Name {
+    std::string_view key;
+    ImVec2 at;
+    float width;
+  };
+  std::vector<Name> names;
   float height;
 };
 
@@ -32,10 +36,10 @@ LegendPlaces legend_places(const Ui& ui, float whole) {
   LegendPlaces places;
   const float line = ui.theme.px(force_legend_line_at_1), gap = ui.theme.px(14);
   ImVec2 at{0, 0};
-  for (std::size_t k = 0; k < force_keys.size(); ++k) {
-    const float width = ui.theme.px(force_sample_at_1) + ui.theme.px(6) + symbol_width(ui.fonts, force_keys[k]);
+  for (const std::string_view key : shown_force_keys(ui.session.preset())) {
+    const float width = ui.theme.px(force_sample_at_1) + ui.theme.px(6) + symbol_width(ui.fonts, key);
     if (at.x > 0 && at.x + width > whole) at = {0, at.y + line};
-    places.at[k] = at, places.width[k] = width;
+    places.names.push_back({key, at, width});
     at.x += width + gap;
   }
   places.height = at.y + line;
@@ -47,22 +51,22 @@ void legend(Ui& ui, ImVec2 corner, const LegendPlaces& places) {
   Plots& plots = ui.plots;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float line = ui.theme.px(force_legend_line_at_1), sample = ui.theme.px(force_sample_at_1);
-  for (std::size_t k = 0; k < force_keys.size(); ++k) {
-    const ImVec2 lo{corner.x + places.at[k].x, corner.y + places.at[k].y};
+  for (const auto& [key, at, width] : places.names) {
+    const ImVec2 lo{corner.x + at.x, corner.y + at.y};
     ImGui::SetCursorScreenPos(lo);
-    ImGui::PushID(int(k));
-    if (gui::press_area("curve", {places.width[k], line})) plots.hidden[k] = !plots.hidden[k];
-    report_control(ui, "curve." + std::string(force_keys[k]));
-    const LegendInk ink = legend_ink(ui.theme.colors, curve_style(ui.theme.colors, force_keys[k]), plots.hidden[k],
-                                     ImGui::IsItemHovered());
+    ImGui::PushID(key.data());
+    if (gui::press_area("curve", {width, line}) && plots.hidden.erase(key) == 0) plots.hidden.insert(key);
+    const bool hidden = plots.hidden.contains(key);
+    report_control(ui, "curve." + std::string(key));
+    const LegendInk ink =
+        legend_ink(ui.theme.colors, curve_style(ui.theme.colors, key), hidden, ImGui::IsItemHovered());
     const float middle = std::round(lo.y + line / 2), left = lo.x + sample + ui.theme.px(6);
     const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
     draw_styled_line(draw, ends, 2, ink.sample, ui.theme.scale);
-    draw_symbol(draw, ui.fonts, {left, baseline_at(ui.fonts, middle)}, force_keys[k], ink.name);
-    if (plots.hidden[k]) strike_out({draw, ui.theme, ui.fonts}, {left, middle}, symbol_width(ui.fonts, force_keys[k]));
-    tooltip(ui, gui::item_id(),
-            std::string(variable(force_keys[k]).quantity) + " · " + std::string(variable(force_keys[k]).storhet),
-            plots.hidden[k] ? "Click to show" : "Click to hide");
+    draw_symbol(draw, ui.fonts, {left, baseline_at(ui.fonts, middle)}, key, ink.name);
+    if (hidden) strike_out({draw, ui.theme, ui.fonts}, {left, middle}, symbol_width(ui.fonts, key));
+    tooltip(ui, gui::item_id(), std::string(variable(key).quantity) + " · " + std::string(variable(key).storhet),
+            hidden ? "Click to show" : "Click to hide");
     ImGui::PopID();
   }
 }
@@ -147,10 +151,13 @@ void force_card(Ui& ui, float height) {
   const Region& inner = card.inner();
   force_controls(ui, inner);
   std::vector<PlotCurve> curves;
-  for (std::size_t k = 0; k < force_keys.size(); ++k)
-    if (!plots.hidden[k])
-      curves.push_back({force_keys[k], curve_style(ui.theme.colors, force_keys[k]), ui.session.recorded.forces.t(),
+  const std::vector<std::string_view> shown = shown_force_keys(ui.session.preset());
+  for (std::size_t k = 0; k < force_keys().size(); ++k) {
+    const std::string_view key = force_keys()[k];
+    if (!plots.hidden.contains(key) && std::find(shown.begin(), shown.end(), key) != shown.end())
+      curves.push_back({key, curve_style(ui.theme.colors, key), ui.session.recorded.forces.t(),
                         ui.session.recorded.forces.column(k)});
+  }
   for (PlotCurve& curve : curves) curve.gaps = ui.session.recorded.forces.gaps();
   const LegendPlaces places = legend_places(ui, inner.size.x);
   const float head = controls_height(ui, inner.size.x);

@@ -93,28 +93,26 @@ void force_line(Ui& ui, std::string_view key, const glm::dvec3& value) {
 /// Every spring: where to, how far it is stretched, what it does.
 void springs(Ui& ui, const TracedStage& stage) {
   const Tokens& c = ui.theme.colors;
-  for (const SpringForce& spring : stage.springs) {
+  for (const StencilForce& spring : stage.stencils) {
+    if (!spring.force->conserves) continue;
     std::array<char, 120> text;
     const double percent = 100 * (spring.length / spring.rest - 1);
     std::snprintf(text.data(), text.size(), "%+6.2f %%  %s N", std::abs(percent) < 0.005 ? 0 : percent,
                   steady_number(glm::length(spring.F)).c_str());
     const bool acts = glm::length(spring.F) > 0;
-    const ImU32 color = acts ? curve_style(c, spring.bending ? "F_b" : "F_s").color : c.quiet;
-    line(ui, "to " + site(spring.i, spring.j), text.data(), color);
+    const ImU32 color = acts ? curve_style(c, spring.force->symbol).color : c.quiet;
+    line(ui, "to " + site(spring.other_i, spring.other_j), text.data(), color);
   }
 }
 
-void forces(Ui& ui, const TracedStage& stage, double m) {
-  const ParticleForces& F = stage.forces;
-  const std::pair<std::string_view, glm::dvec3> kinds[] = {{"F_s", F.F_s},       {"F_b", F.F_b},
-                                                           {"F_d", F.F_d},       {"F_g", F.F_g},
-                                                           {"F_ext", F.F_ext()}, {"F", F.F_int() + F.F_ext()}};
-  for (const auto& [key, value] : kinds) {
-    const bool same = key == "F_ext" && F.F_wind == glm::dvec3(0);  // gravity alone, shown already
-    if (!same) force_line(ui, key, value);
-  }
+void force_lines(Ui& ui, const TracedStage& stage) {
+  const Preset& preset = ui.session.preset();
+  const auto on = by_key(stage.forces);
+  for (const std::string_view key : shown_force_keys(preset))
+    if (!key.starts_with("F_int") && key != "F_ext" && key != "F") force_line(ui, key, on[key]);
+  force_line(ui, "F", on["F"]);
   line(ui, "a = F/m", steady_vector(stage.a) + " m/s²", ui.theme.colors.text);
-  words(ui, "with m = " + short_number(m) + " kg", ui.theme.colors.quiet);
+  words(ui, "with m = " + short_number(preset.m) + " kg", ui.theme.colors.quiet);
 }
 
 void assignment(Ui& ui, const Scheme& method, const TracedAssignment& what) {
@@ -143,7 +141,7 @@ void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
   line(ui, method.lag != 0 ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
   if (method.lag != 0) words(ui, "the velocity that damping uses: between two steps, or predicted", c.quiet);
   springs(ui, stage);
-  forces(ui, stage, ui.session.preset().m);
+  force_lines(ui, stage);
   if (!trace.whole) return;
   for (const TracedAssignment& what : stage.assignments) assignment(ui, method, what);
   ImGui::Dummy({0, ui.theme.px(8)});

@@ -18,8 +18,14 @@
 namespace tyglab {
 namespace {
 
-constexpr std::array<std::string_view, 7> forces{"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"};
 constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
+
+/// The sum comes last.
+std::vector<std::string_view> listed_forces(const Preset& preset) {
+  std::vector<std::string_view> keys = shown_force_keys(preset);
+  std::rotate(keys.begin(), keys.begin() + 1, keys.end());
+  return keys;
+}
 
 /// Whether the variable can be drawn at the particle: a position is a place, not an arrow, a mass on a spring has none.
 bool has_arrow(const Ui& ui, std::string_view key) {
@@ -41,7 +47,7 @@ double noise_of(const Preset& preset, std::string_view key) {
 glm::dvec3 value_of(const Ui& ui, const ParticleReadout* readout, std::string_view key) {
   if (readout == nullptr) return glm::dvec3(0);
   const double noise = noise_of(ui.session.preset(), key);
-  glm::dvec3 value = vector_of(*readout, key);
+  glm::dvec3 value = (*readout)[key];
   for (int n = 0; n < 3; ++n)
     if (std::abs(value[n]) < noise) value[n] = 0;
   return value;
@@ -206,7 +212,7 @@ constexpr const char* card_title = "Picked particle";
 float particle_panel_height(const Ui& ui) {
   const float spacing = ui.theme.px(2), title = ui.theme.px(2) + ui.theme.px(22) + 2 * spacing;
   const bool open = ui.settings.layout.folded.count(card_title) == 0;
-  const int lines = open ? int(forces.size() + 1) / 2 + int(motion.size()) : 0;
+  const int lines = open ? int(listed_forces(ui.session.preset()).size() + 1) / 2 + int(motion.size()) : 0;
   return title + float(lines) * (line_height(ui) + spacing) + ui.theme.px(8);
 }
 
@@ -236,6 +242,7 @@ void particle_panel(Ui& ui) {
   if (ui.session.picked)
     readout = ui.session.simulation->particle(ui.session.picked->i, ui.session.picked->j), shown = &readout;
   const Grid columns = grid(ui);
+  const std::vector<std::string_view> forces = listed_forces(ui.session.preset());
   double largest = 0;
   for (const std::string_view key : forces) largest = std::max(largest, glm::length(value_of(ui, shown, key)));
   const ScaledUnit newtons = scaled_unit(largest, "N");

@@ -19,16 +19,17 @@ namespace {
 void spring_arrows(Ui& ui, ImDrawList& draw, ImVec2 from) {
   const StepTrace* trace = ui.session.inspector.shown();
   if (trace == nullptr) return;
-  const std::vector<SpringForce>& springs = trace->stages.front().springs;
+  const std::vector<StencilForce>& stencils = trace->stages.front().stencils;
   double strongest = 0;
-  for (const SpringForce& spring : springs) strongest = std::max(strongest, glm::length(spring.F));
+  for (const StencilForce& one : stencils)
+    if (one.force->conserves) strongest = std::max(strongest, glm::length(one.F));
   const glm::dvec3 x = ui.session.simulation->position(trace->i, trace->j);
   const double meters = ui.scene.camera.metres_per_pixel(x, ui.viewport.size().y) * ui.theme.px(80);
-  for (const SpringForce& spring : springs) {
-    if (!(glm::length(spring.F) > 0.02 * strongest)) continue;
-    const auto to = on_screen(ui, 0, x + spring.F / strongest * meters);
+  for (const StencilForce& one : stencils) {
+    if (!one.force->conserves || !(glm::length(one.F) > 0.02 * strongest)) continue;
+    const auto to = on_screen(ui, 0, x + one.F / strongest * meters);
     if (!to) continue;
-    const ImU32 color = curve_style(ui.theme.colors, spring.bending ? "F_b" : "F_s").color;
+    const ImU32 color = curve_style(ui.theme.colors, one.force->symbol).color;
     draw.AddLine(from, *to, faded(ui.theme.colors.ground, 0.55f), ui.theme.px(4));
     draw.AddLine(from, *to, color, ui.theme.px(1.6f));
     draw.AddCircleFilled(*to, ui.theme.px(2.5f), color, 12);

@@ -31,7 +31,7 @@ struct Group {
 
 const std::array<Group, 3>& groups() {
   static const std::array<Group, 3> list{
-      {{"N", {"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"}, [](const Preset& p) { return 0.01 * p.m * 9.82; }},
+      {{"N", {force_keys().begin(), force_keys().end()}, [](const Preset& p) { return 0.01 * p.m * 9.82; }},
        {"m/s", {"v"}, [](const Preset&) { return 1e-3; }},
        {"m/s²", {"a"}, [](const Preset&) { return 0.1; }}}};
   return list;
@@ -119,7 +119,7 @@ float scale_bar(Ui& ui, ImDrawList& draw, ImVec2 at, double scale, std::string_v
 std::optional<double> longest_of(const Group& group, const std::set<std::string>& checked, const ParticleReadout& r) {
   std::optional<double> longest;
   for (const std::string_view key : group.keys)
-    if (checked.count(std::string(key)) > 0) longest = std::max(longest.value_or(0), glm::length(vector_of(r, key)));
+    if (checked.count(std::string(key)) > 0) longest = std::max(longest.value_or(0), glm::length(r[key]));
   return longest;
 }
 
@@ -143,7 +143,7 @@ struct DrawnArrow {
 /// One variable's arrow; none where it is too short to be seen.
 std::optional<DrawnArrow> variable_arrow(Ui& ui, ImDrawList& draw, int tile, ImVec2 from, const ParticleReadout& r,
                                          std::string_view key, double scale) {
-  const glm::dvec3 value = vector_of(r, key);
+  const glm::dvec3 value = r[key];
   const double parts = glm::length(value) / scale, pixels = std::min(parts, most_of_it) * ui.theme.px(longest_px);
   if (pixels < 1) return std::nullopt;
   auto to = on_screen(

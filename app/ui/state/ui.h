@@ -45,7 +45,7 @@ struct Plots {
   std::vector<std::string> cards;    ///< names on the tabs; none where all cards have room
   std::optional<CardAnchor> anchor;  ///< the first tool that is seen
   float width = 0;                   ///< of a card, pixels
-  std::array<bool, Recorded::forces_count> hidden{true, false, false, false, false, true, true};
+  std::set<std::string_view> hidden{"F", "F_int", "F_ext"};  ///< curves of forces, of force_keys()
   std::array<bool, 4> figure_hidden{};
   AccuracySide accuracy = AccuracySide::errors;
   char target[32] = "1e-4";           ///< of the settings to be found: the largest error, m, as it is typed

@@ -1,0 +1,142 @@
+// Forces as data. A force acts on stencils: up to four particles in fixed places of the lattice. One file a force
+// (stretch.cpp, bend.cpp, …) says what it does to a single stencil, in double; the table below lists them all.
+// Read-outs, energies, the plain engine, bounds of frequencies and panels are loops over this table. The fast engines
+// compute the springs and the wind by hand, and tests hold them against it. docs/adding-a-force.md adds one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+
+#include "core/cloth/state.h"
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// The particles that a force couples, as seen from the one that owns them.
+struct Stencil {
+  static constexpr int most_points = 4;
+  struct Point {
+    int di = 0, dj = 0;
+    double weight = 0;  ///< w in d = Σ w x, for a force that depends on d
+  };
+  /// A stretch spring, by the place of its owner.
+  struct Spring {
+    int direction = 0, di = 0, dj = 0;
+  };
+  enum class Owners { all, even, odd };  ///< by i + j
+  int points = 0;
+  std::array<Point, most_points> at{};
+  double rest = 0;  ///< length of d at rest, in units of L
+  int springs = 0;
+  std::array<Spring, most_points> spring{};  ///< it acts while these are whole
+  Owners owners = Owners::all;
+
+  /// Whether particle (i, j) owns one that acts.
+  bool acts(const Tears& tears, int i, int j) const;
+};
+
+/// Positions (m) and velocities (m/s) of a stencil's particles.
+struct Points {
+  std::array<glm::dvec3, Stencil::most_points> x{}, v{};
+};
+
+/// What a force does to a stencil's particles.
+struct ForceAction {
+  double energy = 0;                                 ///< J; of a force that conserves it
+  std::array<glm::dvec3, Stencil::most_points> F{};  ///< N
+};
+
+/// A potential φ(|d|) at one |d|: its gradient is factor·d, its Hessian factor·I + along·d dᵀ. Newton's method wants
+/// neither below 0.
+struct Potential {
+  double energy = 0;  ///< J
+  double factor = 0;  ///< N/m
+  double along = 0;   ///< N/m³
+};
+
+struct Force {
+  enum class Group { internal, external };
+  std::string_view symbol;  ///< "F_s": its row among the variables of the notation table
+  std::string_view name;    ///< "stretch": its energy, or the work that it does, in files
+  std::string_view title;   ///< of that energy or work, in panels
+  std::string_view help;    ///< a sentence on it
+  Group group;
+  bool conserves;  ///< it has an energy; others do work
+  bool in_report;  ///< table B.1 lists it, so panels do too while it is off
+  /// Whether the scene has it.
+  bool (*on)(const Preset&);
+  std::span<const Stencil> (*stencils)(const Preset&);
+  void (*act)(const Preset&, const Stencil&, const Points&, ForceAction&);
+
+  // Forces with a potential φ(|d|):
+  Potential (*potential)(const Preset&, const Stencil&, double d_squared) = nullptr;
+  /// The largest second derivative of φ, N/m.
+  double (*stiffness)(const Preset&, const Stencil&) = nullptr;
+  /// Upper bound of the eigenvalues of its Hessian over all positions of all particles, N/m; 0 without stiffness.
+  double (*largest_eigenvalue)(const Preset&) = nullptr;
+  /// Where K u·u <= r·C u·u for the Hessian K and the matrix C of the damping of k_d = 1: r, N/m.
+  double (*over_damping)(const Preset&) = nullptr;
+};
+
+namespace force {
+extern const Force stretch, bend, damping, gravity, wind;
+/// In the order of the report.
+inline constexpr std::array all{&stretch, &bend, &damping, &gravity, &wind};
+}  // namespace force
+
+/// Where a force stands in the table.
+std::size_t index_of(const Force& force);
+
+/// One value for each force.
+template <class T>
+struct PerForce {
+  std::array<T, force::all.size()> of{};  ///< in the order of the table
+  T& operator[](const Force& force) { return of[index_of(force)]; }
+  const T& operator[](const Force& force) const { return of[index_of(force)]; }
+  /// The sum over the forces that `which` picks.
+  template <class Which>
+  T sum(const Which& which) const {
+    T total{0};
+    for (std::size_t n = 0; n < force::all.size(); ++n)
+      if (which(*force::all[n])) total += of[n];
+    return total;
+  }
+};
+
+/// The force of that symbol, which must exist.
+const Force& force_called(std::string_view symbol);
+
+/// Calls visit(force, stencil) for the stencils of every force that the scene has.
+template <class Visit>
+void for_each_stencil(const Preset& preset, const Visit& visit) {
+  for (const Force* force : force::all)
+    if (force->on(preset))
+      for (const Stencil& stencil : force->stencils(preset)) visit(*force, stencil);
+}
+
+/// ForceAction of a force with a potential φ(|d|): -w·factor·d on each point.
+inline void act_along_d(decltype(Force::potential) potential, const Preset& preset, const Stencil& stencil,
+                        const Points& points, ForceAction& action) {
+  glm::dvec3 d{0};
+  for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) d += stencil.at[n].weight * points.x[n];
+  const Potential at = potential(preset, stencil, glm::dot(d, d));
+  action.energy = at.energy;
+  for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) action.F[n] = -stencil.at[n].weight * at.factor * d;
+}
+
+/// The force of the lattice's springs in that direction, and their constant, N/m.
+inline const Force& spring_force(const Direction& to) {
+  return to.bending ? force::bend : force::stretch;
+}
+inline double spring_constant(const Preset& preset, const Direction& to) {
+  return to.bending ? preset.k_b : preset.k_s;
+}
+
+/// The stretch springs of the lattice, one stencil a direction, which damping shares.
+std::span<const Stencil> stretch_stencils();
+
+}  // namespace tyglab

@@ -1,0 +1,54 @@
+// F_s: springs that pull while they are longer than at rest, to the eight nearest particles (2.4, 2.5); for a mass on a
+// spring, Hooke's two-sided spring to x_0 (2.3).
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/forces/force.h"
+
+namespace tyglab {
+namespace {
+
+struct Stretch {
+  static constexpr std::array<Stencil, 1> anchored{{{1, {{{0, 0, 1}}}}}};
+
+  static Potential potential(const Preset& p, const Stencil& stencil, double d_squared) {
+    const double length = std::sqrt(d_squared), longer = length - stencil.rest * p.L;
+    if (!(longer > 0)) return {};
+    const double factor = p.k_s * longer / length;
+    return {p.k_s / 2 * longer * longer, factor, (p.k_s - factor) / d_squared};
+  }
+
+  static void act(const Preset& p, const Stencil& stencil, const Points& points, ForceAction& action) {
+    if (p.kind == Kind::one_weight) {
+      const double away = points.x[0].y - p.x_0.y;
+      action.energy = p.k / 2 * away * away;
+      action.F[0] = {0, -p.k * away, 0};
+    } else {
+      act_along_d(potential, p, stencil, points, action);
+    }
+  }
+};
+
+}  // namespace
+
+const Force force::stretch{
+    .symbol = "F_s",
+    .name = "stretch",
+    .title = "elastic, stretch",
+    .help = "½ k_s (|x_ij| − L)² of springs that pull.",
+    .group = Force::Group::internal,
+    .conserves = true,
+    .in_report = true,
+    .on = [](const Preset&) { return true; },
+    .stencils = [](const Preset& p) -> std::span<const Stencil> {
+      return p.kind == Kind::one_weight ? Stretch::anchored : stretch_stencils();
+    },
+    .act = Stretch::act,
+    .potential = Stretch::potential,
+    .stiffness = [](const Preset& p, const Stencil&) { return p.kind == Kind::one_weight ? p.k : p.k_s; },
+    // Σ 4 sin² over the four directions is at most 12.
+    .largest_eigenvalue = [](const Preset& p) { return p.kind == Kind::one_weight ? p.k : 12 * p.k_s; },
+    .over_damping = [](const Preset& p) { return p.kind == Kind::one_weight ? p.k : p.k_s; },
+};
+
+}  // namespace tyglab
