@@ -128,11 +128,6 @@ TracedStage Patch::sweep(const Sweep& sweep) {
   return traced;
 }
 
-/// Whether the table's sums, evaluation by evaluation, are all of a step.
-bool is_written_out(const Scheme& scheme) {
-  return !is_implicit(scheme) && !chooses_steps(scheme) && !projects(scheme) && !solves_damping(scheme);
-}
-
 /// Whether an assignment to `target` in the last sweep begins with that vector: it gathers the result.
 bool gathers(const Scheme& scheme, int vector, int target) {
   for (const Assignment& assignment : scheme.sweeps.back().assignments)

@@ -74,9 +74,10 @@ void PresetArgument::add_engine(CLI::App& command) {
   command
       .add_option("--engine", engine,
                   "Engine: cpu; opencl, on the first GPU or else the first OpenCL device;\n"
-                  "opencl:N, on the device with that number in `tyglab devices`; or auto: the fastest\n"
-                  "in short runs of this scene, whose times are cached")
-      ->type_name("cpu|opencl[:N]|auto")
+                  "opencl:N, on the device with that number in `tyglab devices`; plain: the reference,\n"
+                  "loops in double, slow; or auto: the fastest in short runs of this scene, whose times\n"
+                  "are cached")
+      ->type_name("cpu|opencl[:N]|plain|auto")
       ->check(not_empty());
 }
 
@@ -163,7 +164,7 @@ bool PresetArgument::sets(std::string_view key) const {
 }
 
 void PresetArgument::check_engine() const {
-  constexpr std::array<std::string_view, 3> known{"cpu", "opencl", automatic};
+  constexpr std::array<std::string_view, 4> known{"cpu", "opencl", "plain", automatic};
   if (engine.empty()) return;
   if (engines == Engines::cpu) {
     if (engine == "cpu") return;
@@ -171,7 +172,7 @@ void PresetArgument::check_engine() const {
   }
   if (std::find(known.begin(), known.end(), engine) != known.end() || device_number(engine)) return;
   throw UsageError("--engine " + engine +
-                   ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` lists each device's N" +
+                   ": allowed are cpu, opencl, opencl:N, plain and auto; `tyglab devices` lists each device's N" +
                    (engine == "gpu" || engine == "cuda"
                         ? "; did you mean opencl?"
                         : did_you_mean(std::string_view(engine).substr(0, engine.find(':')), known, "")));
@@ -179,9 +180,10 @@ void PresetArgument::check_engine() const {
 
 void PresetArgument::keep_to_cpu(Preset& scene) const {
   if (scene.engine == EngineKind::cpu) return;
-  if (sets("engine")) throw UsageError("--set engine=opencl: this command runs only on the CPU engine; omit it");
-  std::cerr
-      << "tyglab: the preset asks for OpenCL, but this command runs only on the CPU engine, which is used instead.\n";
+  const std::string name(name_of(scene.engine));
+  if (sets("engine")) throw UsageError("--set engine=" + name + ": this command runs only on the CPU engine; omit it");
+  std::cerr << "tyglab: the preset asks for the engine " << name
+            << ", but this command runs only on the CPU engine, which is used instead.\n";
   scene.engine = EngineKind::cpu;
 }
 

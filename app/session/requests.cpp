@@ -29,11 +29,11 @@ void follow_constants(Session& session, Preset& next) {
   if (!changes(session.requested_preset(), next).within(appearance)) next.dt = *dt;
 }
 
-/// Another method that no OpenCL device runs brings the CPU engine with it. Returns what is to be said of that.
+/// Another method that the present engine does not run brings the CPU engine with it. Returns what is to be said of that.
 std::string take_engine_along(const Session& session, Preset& next) {
   if (next.engine == EngineKind::cpu || next.integrator == session.requested_preset().integrator) return {};
   const Scheme& method = scheme(next.integrator);
-  if (runs_on_opencl(method)) return {};
+  if (next.engine == EngineKind::opencl ? runs_on_opencl(method) : is_written_out(method)) return {};
   next.engine = EngineKind::cpu;
   return std::string(method.title) + " runs only on the CPU engine, so that engine was chosen.";
 }

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/analysis/one_weight.h"
-#include "core/analysis/plain_forces.h"
+#include "core/engines/plain/plain_cloth.h"
 #include "core/model/notation.h"
 
 namespace tyglab {
@@ -122,27 +122,36 @@ double rms_distance(const Track& a, const Track& b) {
 }
 
 Track odeint_track(const AccuracyScene& scene, double tolerance, const Stop& stop) {
-  using Vector = std::vector<double>;
-  const PlainForces forces(scene.preset);
-  const std::size_t half = 3 * forces.particles();
-  Vector y(2 * half);
-  const State start = start_state(scene.preset);
-  for (std::size_t p = 0; p < forces.particles(); ++p) {
+  // Positions, then velocities, as Odeint takes them; and as the plain cloth does.
+  using Numbers = std::vector<double>;
+  const Preset& preset = scene.preset;
+  const Tears whole(lattice_of(preset));
+  const std::vector<std::uint8_t> pinned = pinned_particles(preset);
+  const std::size_t particles = pinned.size(), half = 3 * particles;
+  Numbers y(2 * half);
+  const State start = start_state(preset);
+  for (std::size_t p = 0; p < particles; ++p) {
     y[3 * p] = start.x.x[p], y[3 * p + 1] = start.x.y[p], y[3 * p + 2] = start.x.z[p];
     y[half + 3 * p] = start.v.x[p], y[half + 3 * p + 1] = start.v.y[p], y[half + 3 * p + 2] = start.v.z[p];
   }
+  plain::Vector x(particles), v(particles);
   int asked = 0;
-  const auto derivative = [&](const Vector& from, Vector& change, double) {
+  const auto derivative = [&](const Numbers& from, Numbers& change, double) {
     if (++asked % 4096 == 0 && stop()) throw Stopped();
-    std::copy_n(from.data() + half, half, change.data());
-    forces.accelerations(from.data(), from.data() + half, change.data() + half);
+    for (std::size_t n = 0; n < half; ++n) {
+      x[n / 3][int(n % 3)] = from[n];
+      change[n] = v[n / 3][int(n % 3)] = from[half + n];
+    }
+    const plain::Vector F = plain::forces(preset, whole, x, v);
+    for (std::size_t n = 0; n < half; ++n)
+      change[half + n] = pinned[n / 3] != 0 ? 0 : F[n / 3][int(n % 3)] / preset.m;
   };
-  const auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<Vector>>(tolerance, 0.0);
+  const auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<Numbers>>(tolerance, 0.0);
   Track track;
   for (int n = 1; n <= accuracy_samples; ++n) {
     odeint::integrate_adaptive(stepper, derivative, y, sample_time(scene, n - 1), sample_time(scene, n), 1e-5);
     auto& positions = track.emplace_back();
-    for (std::size_t p = 0; p < forces.particles(); ++p) positions.emplace_back(y[3 * p], y[3 * p + 1], y[3 * p + 2]);
+    for (std::size_t p = 0; p < particles; ++p) positions.emplace_back(y[3 * p], y[3 * p + 1], y[3 * p + 2]);
   }
   return track;
 }

@@ -57,8 +57,8 @@ class Stopped : public std::runtime_error {
 /// seconds. Throws Stopped soon after `stop` says so.
 Reference make_reference(const AccuracyScene& scene, bool quick, const Stop& stop);
 
-/// The scene's motion by Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with that tolerance (m and m/s), on PlainForces: a
-/// cloth without bodies.
+/// The scene's motion by Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with that tolerance (m and m/s), on the plain
+/// cloth's forces: a cloth without bodies.
 Track odeint_track(const AccuracyScene& scene, double tolerance, const Stop& stop);
 /// The scene's motion by an integrator of this project in double, with `steps` steps between samples. Throws
 /// std::runtime_error if it diverges.

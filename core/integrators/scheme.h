@@ -138,6 +138,10 @@ inline bool projects(const Scheme& scheme) {
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;
 }
+/// Whether a method's sums, evaluation by evaluation, are all of its step: it is explicit, with a fixed dt.
+inline bool is_written_out(const Scheme& scheme) {
+  return !is_implicit(scheme) && !chooses_steps(scheme) && !projects(scheme) && !solves_damping(scheme);
+}
 /// Whether a step solves equations of any kind (SolveCounts).
 inline bool solves_equations(const Scheme& scheme) {
   return is_implicit(scheme) || solves_damping(scheme);

@@ -241,8 +241,8 @@ std::string notation_markdown() {
          "## Constants of a preset\n\n";
   table<Preset>(out, rows);
   out << "\nOther keys: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
-         "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu` or "
-         "`opencl`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of `bodies` has "
+         "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu`, "
+         "`opencl` or `plain`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of `bodies` has "
          "a `shape`: `sphere` (c, r) or `plane` (y).\n\n";
   table<Body>(out, body_rows);
   out << "\n## Variables\n\nShown for the picked particle, and plotted.\n\n| Symbol | Quantity | Storhet | Unit | "

@@ -11,7 +11,7 @@ namespace tyglab {
 
 enum class Kind { cloth, one_weight };
 enum class Precision { float_, double_ };
-enum class EngineKind { cpu, opencl };
+enum class EngineKind { cpu, opencl, plain };
 
 /// Which particles never move.
 struct Pins {

@@ -49,7 +49,7 @@ double wall_seconds() {
 }
 
 double computing_seconds(EngineKind engine) {
-  return engine == EngineKind::cpu ? thread_seconds() : wall_seconds();
+  return engine == EngineKind::opencl ? wall_seconds() : thread_seconds();
 }
 
 }  // namespace tyglab

@@ -15,7 +15,7 @@ inline constexpr std::array<std::string_view, 2> kind_names{"cloth", "one_weight
 inline constexpr std::array<std::string_view, 7> pin_names{"none",        "top_row",  "top_corners", "four_corners",
                                                            "left_column", "boundary", "list"};
 inline constexpr std::array<std::string_view, 2> shape_names{"sphere", "plane"};
-inline constexpr std::array<std::string_view, 2> engine_names{"cpu", "opencl"};
+inline constexpr std::array<std::string_view, 3> engine_names{"cpu", "opencl", "plain"};
 inline constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
 constexpr std::string_view name_of(Kind v) {
   return kind_names[std::size_t(v)];
@@ -34,7 +34,7 @@ constexpr std::string_view name_of(Precision v) {
 }
 /// As people call it.
 constexpr std::string_view title_of(EngineKind v) {
-  return v == EngineKind::cpu ? "CPU" : "OpenCL";
+  return v == EngineKind::cpu ? "CPU" : v == EngineKind::opencl ? "OpenCL" : "plain";
 }
 /// Sections of a preset file.
 inline constexpr std::array<std::string_view, 6> section_names{"cloth",  "forces", "tearing",

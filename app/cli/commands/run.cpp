@@ -337,8 +337,8 @@ std::string closing(const Json& summary, const std::string& also) {
 
 /// Whether steps of these can end early.
 void check_step_limit(const Preset& preset) {
-  if (preset.engine == EngineKind::opencl)
-    throw UsageError("--step-limit: the OpenCL engine always completes its solves; use --engine cpu");
+  if (preset.engine != EngineKind::cpu)
+    throw UsageError("--step-limit: only the CPU engine has solves that can end early; use --engine cpu");
   if (preset.kind == Kind::one_weight)
     throw UsageError("--step-limit: a mass on a spring is solved at once; leave the option out");
   const Scheme& method = scheme(preset.integrator);

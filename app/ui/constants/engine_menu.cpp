@@ -10,6 +10,11 @@
 namespace tyglab {
 namespace {
 
+/// The plain engine computes in double, whatever the preset's precision.
+bool is_mode_of(const EngineMode& mode, const Preset& preset) {
+  return mode.engine == preset.engine && (mode.precision == preset.precision || mode.engine == EngineKind::plain);
+}
+
 constexpr double looks_again = 0.1;  // s, until the devices are known
 
 /// The device that a preset runs on; null where there is none, or none is known.
@@ -23,7 +28,7 @@ const OpenClDevice* device_of(const Preset& preset, const OpenClInventory* devic
 void mode_choices(Ui& ui, const OpenClInventory* devices) {
   const Preset& preset = ui.session.requested_preset();
   for (const EngineMode& mode : engine_modes()) {
-    const bool now = mode.engine == preset.engine && mode.precision == preset.precision;
+    const bool now = is_mode_of(mode, preset);
     const std::string obstacle = now ? "" : why_not(mode, preset, devices);
     const ImGuiSelectableFlags flags = obstacle.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
     if (ImGui::Selectable(mode.label, now, flags) && !now) {
@@ -59,16 +64,19 @@ void device_choices(Ui& ui, const OpenClInventory& inventory) {
 }  // namespace
 
 std::span<const EngineMode> engine_modes() {
-  static constexpr std::array<EngineMode, 4> modes{
+  static constexpr std::array<EngineMode, 5> modes{
       {{"cpu_float", "CPU · float", "CPU, float", EngineKind::cpu, Precision::float_},
        {"cpu_double", "CPU · double", "CPU, double", EngineKind::cpu, Precision::double_},
        {"opencl_float", "OpenCL · float", "OpenCL, float", EngineKind::opencl, Precision::float_},
-       {"opencl_double", "OpenCL · double", "OpenCL, double", EngineKind::opencl, Precision::double_}}};
+       {"opencl_double", "OpenCL · double", "OpenCL, double", EngineKind::opencl, Precision::double_},
+       {"plain", "plain · double", "plain, double", EngineKind::plain, Precision::double_}}};
   return modes;
 }
 
 std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
   if (mode.engine == EngineKind::cpu) return {};
+  if (mode.engine == EngineKind::plain)
+    return is_written_out(scheme(preset.integrator)) ? "" : "The plain engine runs explicit methods of fixed dt only.";
   if (devices != nullptr && devices->devices.empty()) return no_device_words(devices->problem);
   const Scheme& method = scheme(preset.integrator);
   if (!runs_on_opencl(method))
@@ -80,6 +88,9 @@ std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClIn
 }
 
 std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
+  if (mode.engine == EngineKind::plain)
+    return "Loops over particles as a student would write them, in double: the reference of the others, about 100 times "
+           "slower than the CPU engine.";
   std::string where = "On the CPU";
   if (mode.engine == EngineKind::opencl) {
     const OpenClDevice* device = device_of(preset, devices);
@@ -92,9 +103,8 @@ std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClI
 void engine_menu(Ui& ui, float width) {
   const Preset& preset = ui.session.requested_preset();
   const auto modes = engine_modes();
-  const auto now = std::find_if(modes.begin(), modes.end(), [&](const EngineMode& mode) {
-    return mode.engine == preset.engine && mode.precision == preset.precision;
-  });
+  const auto now =
+      std::find_if(modes.begin(), modes.end(), [&](const EngineMode& mode) { return is_mode_of(mode, preset); });
   if (!begin_combo(ui, "##engine", now->label, width)) {
     tooltip(ui, gui::item_id(), "Engine and precision. Now: " + ui.session.simulation->engine().name());
     return;

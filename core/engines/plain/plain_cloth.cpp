@@ -1,0 +1,124 @@
+#include "core/engines/plain/plain_cloth.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/forces/contact.h"
+
+namespace tyglab::plain {
+
+Vector forces(const Preset& preset, const Tears& tears, const Vector& x, const Vector& v, bool external_only) {
+  const Lattice& lattice = tears.lattice();
+  assert(x.size() == std::size_t(lattice.size()) && v.size() == x.size());
+  Vector F(x.size(), glm::dvec3(0));
+  for (const Force* force : force::all) {
+    if (!force->on(preset) || (external_only && force->group == Force::Group::internal)) continue;
+    for (const Stencil& stencil : force->stencils(preset))
+      for (int i = 0; i < lattice.rows; ++i)
+        for (int j = 0; j < lattice.columns; ++j) {
+          if (!stencil.acts(tears, i, j)) continue;
+          // The stencil's particles, what the force does to them, and where that goes.
+          std::array<std::size_t, Stencil::most_points> particle{};
+          Points points;
+          for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
+            particle[n] = std::size_t(i + stencil.at[n].di) * std::size_t(lattice.columns) +
+                          std::size_t(j + stencil.at[n].dj);
+            points.x[n] = x[particle[n]], points.v[n] = v[particle[n]];
+          }
+          ForceAction action;
+          force->act(preset, stencil, points, action);
+          for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) F[particle[n]] += action.F[n];
+        }
+  }
+  return F;
+}
+
+Vector Cloth::accelerations(int position, int velocity, double per, const Tears& tears, bool external_only) {
+  Vector v = vectors[std::size_t(velocity)];
+  for (glm::dvec3& one : v) one *= per;
+  Vector a = forces(preset, tears, vectors[std::size_t(position)], v, external_only);
+  if (held >= 0) hand_force = a[std::size_t(held)];
+  for (std::size_t p = 0; p < a.size(); ++p) a[p] = fixed[p] != 0 ? glm::dvec3(0) : a[p] / preset.m;
+  return a;
+}
+
+/// Sums of vectors, in the order of the table.
+void Cloth::assign(const std::vector<Assignment>& assignments, const Vector& a) {
+  for (const Assignment& assignment : assignments)
+    for (std::size_t p = 0; p < a.size(); ++p) {
+      glm::dvec3 sum{0};
+      for (const Term& term : assignment.terms)
+        sum += term.factor * power(preset.dt, term.dt_power) *
+               (term.vector == acceleration ? a : vectors[std::size_t(term.vector)])[p];
+      vectors[std::size_t(assignment.target)][p] = sum;
+    }
+}
+
+void Cloth::start(const Tears& tears) {
+  assign(scheme->start, accelerations(vector_x, vector_v, 1, tears));
+  synchronized = false;
+}
+
+void Cloth::step(const Tears& tears) {
+  if (synchronized && !scheme->start.empty()) start(tears);
+  const Vector before = vectors[vector_x];
+  for (const Sweep& sweep : scheme->sweeps) {
+    const double per = power(preset.dt, sweep.velocity_dt_power);
+    assign(sweep.assignments, accelerations(sweep.position, sweep.velocity, per, tears, sweep.external));
+  }
+  collide(before);
+}
+
+/// Bodies correct the positions and velocities of particles that the step has moved into them.
+void Cloth::collide(const Vector& before) {
+  const double scale = velocity_scale();
+  const ContactRule rule{preset.dt, preset.g, std::numeric_limits<double>::epsilon()};
+  contacts.clear(), left_inside = 0, largest = 0;
+  Vector &x = vectors[vector_x], &v = vectors[vector_v];
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    ContactStep now{before[p], x[p], v[p] / scale};
+    const ContactStep freely = now;
+    const bool inside =
+        preset.kind == Kind::cloth && fixed[p] == 0 &&
+        std::any_of(preset.bodies.begin(), preset.bodies.end(), [&](const Body& b) { return depth(b, now.x) > 0; });
+    if (inside) {
+      if (!tyglab::collide(preset.bodies, rule, now)) ++left_inside;
+      x[p] = now.x, v[p] = seen()[p] = now.v * scale;
+      contacts.push_back({int(p), freely.x - now.x, freely.v - now.v});
+    }
+    for (int c = 0; c < 3; ++c)
+      for (const double way : {now.x[c] - now.old_x[c], preset.dt * now.v[c]})
+        largest = std::isfinite(way) ? std::max(largest, std::abs(way)) : std::numeric_limits<double>::infinity();
+  }
+}
+
+double Cloth::tear_overloaded(Tears& tears) const {
+  const Lattice& lattice = tears.lattice();
+  const auto guarded = [&](int i, int j) {
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj)
+        if (lattice.contains(i + di, j + dj) && fixed[std::size_t((i + di) * lattice.columns + j + dj)] != 0) return true;
+    return false;
+  };
+  double slack = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < stretch_directions; ++d)
+    for (int i = 0; i < lattice.rows; ++i)
+      for (int j = 0; j < lattice.columns; ++j) {
+        const auto [di, dj, rest, bending] = directions[std::size_t(d)];
+        if (!lattice.has_spring(d, i, j) || !tears.whole(d, i, j) || guarded(i, j) || guarded(i + di, j + dj)) continue;
+        const Vector& x = vectors[vector_x];
+        const double length = glm::distance(x[std::size_t(i * lattice.columns + j)],
+                                            x[std::size_t((i + di) * lattice.columns + j + dj)]);
+        const double longer = length - rest * preset.L;
+        if (preset.k_s * longer > preset.F_max)
+          tears.tear(d, i, j);
+        else
+          slack = std::min(slack, preset.F_max / preset.k_s - longer);
+      }
+  return slack;
+}
+
+}  // namespace tyglab::plain

@@ -1,0 +1,184 @@
+// The table of forces (core/forces/force.h): each row agrees with itself, and the plain engine with the fast ones.
+#include "core/forces/force.h"
+
+#include <doctest/doctest.h>
+
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "core/engines/plain/plain_cloth.h"
+#include "core/integrators/scheme.h"
+#include "core/simulation.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab::force_test {
+
+/// Every force on.
+Preset everything(int rows, int columns) {
+  Preset preset = test::cloth(rows, columns);
+  preset.W = {0.003, 0.001, -0.002};
+  return preset;
+}
+
+class Random {
+ public:
+  glm::dvec3 vector(double size) { return {size * one(), size * one(), size * one()}; }
+  double one() { return 2 * (double(generator_()) / 4294967295.0) - 1; }
+
+ private:
+  std::mt19937 generator_{1};
+};
+
+Points random_points(Random& random, const Preset& preset, const Stencil& stencil) {
+  Points points;
+  for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
+    points.x[n] = preset.L * glm::dvec3(stencil.at[n].dj, -stencil.at[n].di, 0) + random.vector(0.4 * preset.L);
+    points.v[n] = random.vector(1);
+  }
+  return points;
+}
+
+ForceAction act(const Preset& preset, const Force& force, const Stencil& stencil, const Points& points) {
+  ForceAction action;
+  force.act(preset, stencil, points, action);
+  return action;
+}
+
+TEST_CASE("a force with an energy is minus its gradient; others between particles take energy") {
+  Random random;
+  const Preset preset = everything(6, 6);
+  for_each_stencil(preset, [&](const Force& force, const Stencil& stencil) {
+    CAPTURE(force.symbol);
+    for (int trial = 0; trial < 50; ++trial) {
+      const Points points = random_points(random, preset, stencil);
+      const ForceAction action = act(preset, force, stencil, points);
+      glm::dvec3 sum{0};
+      double power = 0, size = 1e-9;
+      for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
+        sum += action.F[n], power += glm::dot(action.F[n], points.v[n]), size += glm::length(action.F[n]);
+      }
+      if (force.group == Force::Group::internal) {
+        CHECK(glm::length(sum) <= 1e-12 * size);
+        if (!force.conserves) CHECK(power <= 0);
+      }
+      if (!force.conserves) continue;
+      Points before = points, after = points;
+      const double h = 1e-7;
+      for (std::size_t n = 0; n < std::size_t(stencil.points); ++n)
+        before.x[n] -= h * points.v[n], after.x[n] += h * points.v[n];
+      const double rise =
+          (act(preset, force, stencil, after).energy - act(preset, force, stencil, before).energy) / (2 * h);
+      CHECK(rise == doctest::Approx(-power).epsilon(1e-4).scale(1e-3));
+    }
+  });
+}
+
+TEST_CASE("a potential's gradient and Hessian are those of its energy, within its stiffness") {
+  Random random;
+  const Preset preset = everything(6, 6);
+  for_each_stencil(preset, [&](const Force& force, const Stencil& stencil) {
+    if (force.potential == nullptr) return;
+    CAPTURE(force.symbol);
+    const auto energy = [&](double d) { return force.potential(preset, stencil, d * d).energy; };
+    for (int trial = 1; trial < 60; ++trial) {
+      const double d = 0.07 * trial * preset.L, h = 1e-5 * preset.L;
+      if (std::abs(d - stencil.rest * preset.L) < 4 * h) continue;  // where a spring begins to act
+      const Potential at = force.potential(preset, stencil, d * d);
+      const double slope = (energy(d + h) - energy(d - h)) / (2 * h);
+      const double curve = (energy(d + h) - 2 * energy(d) + energy(d - h)) / (h * h);
+      const double k = force.stiffness(preset, stencil);
+      CHECK(at.factor * d == doctest::Approx(slope).epsilon(1e-6).scale(k * preset.L));
+      CHECK(at.factor + at.along * d * d == doctest::Approx(curve).epsilon(1e-3).scale(k));
+      CHECK(curve <= k * (1 + 1e-3));
+    }
+  });
+}
+
+TEST_CASE("no motion of all particles stiffens a force beyond its largest eigenvalue") {
+  Random random;
+  const Preset preset = everything(16, 16);
+  const Tears whole(lattice_of(preset));
+  const std::size_t size = std::size_t(preset.rows) * std::size_t(preset.columns);
+  for (const Force* force : force::all) {
+    if (force->largest_eigenvalue == nullptr) continue;
+    CAPTURE(force->symbol);
+    // The Hessian's largest eigenvalue with every stencil at its full stiffness along d, by power iteration.
+    std::vector<glm::dvec3> u(size), next(size);
+    for (glm::dvec3& one : u) one = {random.one(), 0, 0};
+    double largest = 0;
+    for (int round = 0; round < 400; ++round) {
+      std::fill(next.begin(), next.end(), glm::dvec3(0));
+      for (const Stencil& stencil : force->stencils(preset))
+        for (int i = 0; i < preset.rows; ++i)
+          for (int j = 0; j < preset.columns; ++j) {
+            if (!stencil.acts(whole, i, j)) continue;
+            const auto place = [&](std::size_t n) {
+              return std::size_t(i + stencil.at[n].di) * std::size_t(preset.columns) +
+                     std::size_t(j + stencil.at[n].dj);
+            };
+            double d = 0;
+            for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) d += stencil.at[n].weight * u[place(n)].x;
+            for (std::size_t n = 0; n < std::size_t(stencil.points); ++n)
+              next[place(n)].x += force->stiffness(preset, stencil) * stencil.at[n].weight * d;
+          }
+      double norm = 0;
+      for (const glm::dvec3& one : next) norm += one.x * one.x;
+      largest = std::sqrt(norm);
+      for (std::size_t p = 0; p < size; ++p) u[p] = next[p] / largest;
+    }
+    CHECK(largest <= force->largest_eigenvalue(preset));
+    CHECK(largest > 0.9 * force->largest_eigenvalue(preset));
+  }
+}
+
+TEST_CASE("the plain engine moves as the CPU engine in double, through edits, tears, bodies and the hand") {
+  for (const Scheme& method : schemes()) {
+    if (!is_written_out(method)) continue;
+    CAPTURE(method.name);
+    Preset preset = everything(11, 9);
+    preset.integrator = method.name, preset.dt = 2e-4, preset.precision = Precision::double_, preset.F_max = 0.2;
+    preset.bodies = {{.shape = Body::Shape::sphere, .c = {0.05, 0.8, 0.01}, .r = 0.06, .friction = 0.3}};
+    Simulation fast(preset);
+    preset.engine = EngineKind::plain;
+    Simulation plain(preset);
+    const auto both = [&](const auto& what) { what(fast), what(plain); };
+    both([](Simulation& s) { s.advance(60); });
+    both([](Simulation& s) { s.apply(edit::Grab{8, 4}), s.apply(edit::MoveHand{{0.02, -0.03, 0.05}, 30}); });
+    both([](Simulation& s) { s.advance(40); });
+    both([](Simulation& s) {
+      Preset next = s.preset();
+      next.k_s *= 1.5, next.W.z += 0.002, next.dt *= 0.5;
+      s.apply(edit::Change{next});
+    });
+    both([](Simulation& s) { s.advance(40); });
+    both([](Simulation& s) { s.apply(edit::Cut{{{3, 3}}}), s.apply(edit::Release{}), s.advance(60); });
+    CHECK(fast.tears().torn_count() > 0);
+    CHECK(fast.tears().torn_count() == plain.tears().torn_count());
+    const State a = fast.read(), b = plain.read();
+    double apart = 0, faster = 0;
+    for (std::size_t p = 0; p < a.x.x.size(); ++p) {
+      apart = std::max(apart, glm::distance(test::position(a, p), test::position(b, p)));
+      faster = std::max(faster, glm::distance(test::velocity(a, p), test::velocity(b, p)));
+    }
+    CHECK(apart < 1e-10);
+    CHECK(faster < 1e-7);
+    CHECK(fast.divergence().has_value() == plain.divergence().has_value());
+  }
+}
+
+TEST_CASE("the plain engine goes on from a snapshot to the same bits, and refuses what it cannot run") {
+  Preset preset = everything(7, 8);
+  preset.engine = EngineKind::plain;
+  Simulation plain(preset);
+  plain.advance(20);
+  const Snapshot then = plain.snapshot();
+  plain.advance(20);
+  const State after = plain.read();
+  plain.restore(then);
+  plain.advance(20);
+  for (std::size_t p = 0; p < after.x.x.size(); ++p) CHECK(test::position(plain.read(), p) == test::position(after, p));
+  preset.integrator = "implicit_euler";
+  CHECK_THROWS_AS(Simulation{preset}, EngineError);
+}
+
+}  // namespace tyglab::force_test
