@@ -54,7 +54,7 @@ INLINE vec kept(int masked, maskv on, vec f) { return masked ? where(on, f) : f;
 
 /// Force of a stretch spring with its damping, on its owner.
 INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, int masked, maskv on) {
-  vec f = times(stretch_factor(k->k_s, minus_half, dot3(x_ij, x_ij)), x_ij);
+  vec f = times(stretch_factor(k->stretch, minus_half, dot3(x_ij, x_ij)), x_ij);
 #ifdef DAMPING
   f = plus_scaled(f, k->k_d, v_ij);
 #endif
@@ -62,7 +62,7 @@ INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, in
 }
 
 INLINE vec bent(const Constants* k, vec x_ij, int masked, maskv on) {
-  return kept(masked, on, times(bend_factor(k->k_b, k->bending, k->shortest2, dot3(x_ij, x_ij)), x_ij));
+  return kept(masked, on, times(bend_factor(k->bend, k->bending, k->shortest2, dot3(x_ij, x_ij)), x_ij));
 }
 
 /// a + b where the mask is set, else a.

@@ -60,8 +60,8 @@ enum {
 
 /// As DeviceConstants in device_constants.h.
 typedef struct {
-  REAL k_s, straight, diagonal;  // the last two: -k_s times half of the rest length
-  REAL k_b, bending, shortest2;  // shortest2: square of the length under which a spring has no direction
+  REAL stretch, straight, diagonal;  // the last two: -stretch times half of the rest length
+  REAL bend, bending, shortest2;  // shortest2: square of the length under which a spring has no direction
   REAL k_d;                      // divided by dt where velocities are kept as displacements
   REAL weight;                   // m g
   REAL wind[3];                  // W/3

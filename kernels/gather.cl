@@ -13,7 +13,7 @@ typedef struct {
 INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v, int di, int dj, int masked, maskv on) {
   const int to = di * 3 * b->stride + dj;
   const vec x_ij = minus(load(b->x + to, b->stride), x);
-  realv factor = stretch_factor(k->k_s, di != 0 && dj != 0 ? k->diagonal : k->straight, dot3(x_ij, x_ij));
+  realv factor = stretch_factor(k->stretch, di != 0 && dj != 0 ? k->diagonal : k->straight, dot3(x_ij, x_ij));
   if (masked) factor = on ? factor : ZERO;
   f = plus_times(f, factor, x_ij);
 #ifdef DAMPING
@@ -26,7 +26,7 @@ INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v,
 #ifdef BENDING
 INLINE vec with_bending(vec f, const Constants* k, const Block* b, vec x, int di, int dj, int masked, maskv on) {
   const vec x_ij = minus(load(b->x + di * 3 * b->stride + dj, b->stride), x);
-  const realv factor = bend_factor(k->k_b, k->bending, k->shortest2, dot3(x_ij, x_ij));
+  const realv factor = bend_factor(k->bend, k->bending, k->shortest2, dot3(x_ij, x_ij));
   return plus_times(f, masked ? (on ? factor : ZERO) : factor, x_ij);
 }
 #endif

@@ -28,8 +28,8 @@ Preset small_cloth(const Preset& preset) {
   const int side = solves ? 150 : 512, most = solves ? most_solved_in_one_launch : 0;
   const auto shortened = [&](int length, int other) { return std::min(length, std::max(side, most / other + 1)); };
   small.columns = shortened(preset.columns, preset.rows), small.rows = shortened(preset.rows, small.columns);
-  if (preset.k_d == 0) small.k_d = 0;
-  if (preset.k_b == 0) small.k_b = 0;
+  if (!force::damping.on(preset)) small.k_d = 0;
+  if (!force::bend.on(preset)) small.k_b = 0;
   if (preset.W != glm::dvec3(0)) small.W = {0, 0, 1e-4};
   small.bodies = preset.bodies;
   return small;

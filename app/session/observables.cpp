@@ -374,20 +374,6 @@ double constant_value(const ConstantPlace& place, const Preset& preset) {
   return (preset.*std::get<glm::dvec3 Preset::*>(place.row->field))[place.component];
 }
 
-/// Headings under which the panel of constants shows them.
-struct PanelSection {
-  std::string_view name;
-  std::array<std::string_view, 5> keys;
-};
-constexpr std::array panel_sections{
-    PanelSection{"Integrator", {"dt", "tolerance", "iterations"}},
-    PanelSection{"Springs", {"k_s", "k_b", "k_d", "k"}},
-    PanelSection{"Outer forces", {"g", "W", "gust", "gust_period"}},
-    PanelSection{"Tearing", {"F_max", "F_release"}},
-    PanelSection{"Cloth", {"rows", "columns", "L", "m"}},
-    PanelSection{"Start", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
-};
-
 /// One for each force.
 template <std::size_t... n>
 std::vector<Observable> with_forces(std::index_sequence<n...>) {
@@ -439,10 +425,7 @@ std::string place_of(std::string_view name) {
   if (const Observable* row = find_observable(name)) return std::string(row->place);
   const PresetRow* row = constant_place(name).row;
   if (row == nullptr) return {};
-  const auto block = std::find_if(panel_sections.begin(), panel_sections.end(), [&](const PanelSection& s) {
-    return std::find(s.keys.begin(), s.keys.end(), row->key) != s.keys.end();
-  });
-  return block == panel_sections.end() ? "constants" : std::string(block->name);
+  return std::string(heading_of(*row));
 }
 
 std::string_view unit_of(std::string_view name) {

@@ -45,17 +45,13 @@ StabilityLimits work_out(const Preset& preset, const MotionMark& at, std::option
   if (at_start) cloth = at_its_start(preset), limits.at_start = cloth.has_value();
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
-  const auto add_zones = [&](const ZonedConstant& constant) {
+  for (const ZonedConstant& constant : zoned_constants(preset)) {
     const double usual = Preset{}.*constant.field, now = preset.*constant.field, value = now > 0 ? now : usual;
     const double least = std::min(value, usual) / reaches;
     // A slider may have grown for any value that was once typed.
     const double most = std::max(value * reaches, find_row(constant.key)->max);
     limits.zones.emplace(constant.key, stability_zones(preset, constant.field, least, most, stop));
-  };
-  if (preset.kind == Kind::cloth)
-    std::for_each(zoned_cloth.begin(), zoned_cloth.end(), add_zones);
-  else
-    std::for_each(zoned_weight.begin(), zoned_weight.end(), add_zones);
+  }
   if (stop()) return limits;  // nobody waits for it any more
   if (cloth) {
     limits.fastest = fastest_mode(*cloth, live_tolerance), limits.omega = limits.fastest.omega();

@@ -10,6 +10,7 @@
 
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
+#include "core/forces/force.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 #include "tyglab_version.h"
@@ -75,9 +76,9 @@ void measure(const Preset& preset, int threads, std::vector<EngineTime>& times) 
 std::string key_of(const Preset& p, int threads, const std::vector<OpenClDevice>& devices) {
   const int size = int(std::lround(std::log2(double(p.rows) * p.columns)));
   std::string key = "engine times 1\n" TYGLAB_VERSION "\n" + p.integrator + '\n';
-  for (const int number : {int(p.precision), threads, size, int(p.k_b > 0), int(p.k_d > 0), int(p.W != glm::dvec3(0)),
-                           int(p.bodies.size()), int(p.F_max > 0)})
+  for (const int number : {int(p.precision), threads, size, int(p.bodies.size()), int(p.F_max > 0)})
     key += std::to_string(number) + ' ';
+  for (const Force* force : force::all) key += force->on(p) ? '1' : '0';
   for (const OpenClDevice& device : devices)
     key += '\n' + device.platform + '\n' + device.name + '\n' + device.version + '\n' + device.driver;
   return key;

@@ -12,8 +12,7 @@ EngineForces<R>::EngineForces(const Preset& preset) : tears_(lattice_of(preset))
   cloth_.lattice = lattice_of(preset);
   cloth_.stride = simd::row_stride<R>(cloth_.lattice.columns);
   cloth_.sweeps = cpu::pair_sweeps<R>();
-  cloth_.features = (preset.k_b > 0 ? cpu::bending : 0u) | (preset.k_d > 0 ? cpu::damping : 0u) |
-                    (preset.W != glm::dvec3(0) ? cpu::wind : 0u);
+  cloth_.features = cpu::features_of(preset);
   cloth_.vectors.resize(2);
   int lead = 0;  // apart in their pages, as in the engine
   for (auto* field : {&cloth_.vector(vector_x), &cloth_.vector(vector_v), &out_}) {

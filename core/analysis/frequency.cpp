@@ -8,6 +8,7 @@
 
 #include "core/analysis/reference.h"
 #include "core/engines/implicit/stiffness.h"
+#include "core/forces/force.h"
 
 namespace tyglab {
 namespace {
@@ -109,7 +110,7 @@ Linearisation::Linearisation(const Simulation& simulation, Stop stop)
 void Linearisation::linearise(const Preset& p, const Tears& tears, const Field& x, int d, int i) {
   const Direction& to = directions[std::size_t(d)];
   if (i + to.di >= rows_) return;
-  const double rest = to.rest * p.L, k = (to.bending ? p.k_b : p.k_s) / p.m, per_mass = p.k_d / p.m;
+  const double rest = to.rest * p.L, k = spring_constant(p, to) / p.m, per_mass = p.k_d / p.m;
   // Stored at the lower end of a spring to the lower left, at the owner otherwise.
   const int shift = to.dj == -1 ? 1 : 0, count = columns_ - std::abs(to.dj);
   const std::ptrdiff_t stride = stride_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/forces/force.h"
+
 namespace tyglab {
 namespace {
 
@@ -19,7 +21,7 @@ struct Measure {
   double spring_force(int d, int i) const {
     const Direction& to = directions[std::size_t(d)];
     const Preset& p = stage.preset;
-    const double rest = to.rest * p.L, k = scale * (to.bending ? p.k_b : p.k_s);
+    const double rest = to.rest * p.L, k = scale * spring_constant(p, to);
     double most = 0;
     for (int j = 0; j < stage.lattice.columns; ++j) {
       if (!stage.lattice.has_spring(d, i, j) || !stage.tears.whole(d, i, j)) continue;
@@ -82,7 +84,7 @@ Balance balance_of(const StageView<R>& stage) {
   const Digits digits{.epsilon = std::numeric_limits<R>::epsilon(),
                       .size = size,
                       .way = stage.h * speed,
-                      .stiffness = measure.scale * (weight ? p.k : 8 * p.k_s + 4 * p.k_b),
+                      .stiffness = measure.scale * sum_of(&Force::at_particle, p),
                       .damping = stage.h / p.m * (weight ? 1 : 8) * p.k_d};
   return judge({.left = stage.h * std::sqrt(left),
                 .largest = std::max(stage.h * std::sqrt(change), measure.largest_spring_force()),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/forces/contact.h"
+#include "core/forces/force.h"
 #include "core/simd/row_field.h"
 
 namespace tyglab {
@@ -201,8 +202,8 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
   }
   for (int d = 0; d < int(directions.size()); ++d)
     for (int i = 0; i + directions[d].di < lattice.rows; ++i)
-      motion.squared += (directions[d].bending ? preset.k_b : preset.k_s) / preset.m *
-                        strain_squared(preset, lattice, tears, state, d, i);
+      motion.squared +=
+          spring_constant(preset, directions[d]) / preset.m * strain_squared(preset, lattice, tears, state, d, i);
   return motion;
 }
 

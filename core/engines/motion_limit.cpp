@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/engines/fault.h"
+#include "core/forces/force.h"
 
 namespace tyglab {
 namespace {
@@ -25,7 +26,9 @@ double reach_squared(const Preset& p, const Lattice& lattice) {
     const Direction& dir = directions[d];
     const double springs = double(std::max(lattice.rows - dir.di, 0)) * std::max(lattice.columns - std::abs(dir.dj), 0);
     const double longest = longest_factor * dir.rest * p.L;
-    const double held = dir.bending ? p.k_b * std::pow(dir.rest * p.L, 2) : p.k_s * longest * longest;
+    // A spring that pushes holds most where its ends meet.
+    const double k = spring_constant(p, dir),
+                 held = dir.bending ? k * std::pow(dir.rest * p.L, 2) : k * longest * longest;
     sum += springs * (held / p.m + longest * longest * per_step);
   }
   return sum;
@@ -35,7 +38,7 @@ double reach_squared(const Preset& p, const Lattice& lattice) {
 
 void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, const glm::dvec3& hand) {
   assert(p.dt > 0 && p.m > 0 && lattice.size() > 0);
-  constexpr double stretch_springs = 8, bending_springs = 4, triangles = 8, corners = 3;
+  constexpr double stretch_springs = 8, triangles = 8, corners = 3;
   const bool cloth = p.kind == Kind::cloth;
   // What the hand lets go keeps its velocity.
   if (!held) begun_squared_ += hand_squared_;
@@ -43,10 +46,10 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   hand_squared_ = hand_speed * hand_speed;
   particles_ = lattice.size(), dt_ = p.dt;
   const double wind = cloth ? triangles / corners * glm::length(p.W) / p.m : 0;
-  const double at_hand = std::sqrt((stretch_springs * p.k_s + bending_springs * p.k_b) / p.m);
+  const double at_hand = std::sqrt(sum_of(&Force::at_particle, p) / p.m);
   acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind) + at_hand * hand_speed;
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
-  fastest_mode_ = std::sqrt((12 * p.k_s + 8 * p.k_b) / p.m);
+  fastest_mode_ = std::sqrt(sum_of(&Force::largest_eigenvalue, p) / p.m);
   reach_squared_ = reach_squared(p, lattice);
   constexpr double roundings = 16;
   noise_ = std::sqrt(particles_) * roundings * (p.precision == Precision::float_ ? 0x1p-24 : 0x1p-53) / p.dt;

@@ -40,8 +40,10 @@ const Force force::bend{
               ForceAction& action) { act_along_d(Bend::potential, p, stencil, points, action); },
     .potential = Bend::potential,
     .stiffness = [](const Preset& p, const Stencil&) { return p.k_b; },
+    .constant = [](const Preset&) -> std::string_view { return "k_b"; },
     // 4 sin² of two columns, and of two rows.
     .largest_eigenvalue = [](const Preset& p) { return 8 * p.k_b; },
+    .at_particle = [](const Preset& p) { return 4 * p.k_b; },
     // sin² 2a <= 4 sin² a.
     .over_damping = [](const Preset& p) { return 4 * p.k_b; },
 };

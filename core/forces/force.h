@@ -76,9 +76,13 @@ struct Force {
   Potential (*potential)(const Preset&, const Stencil&, double d_squared) = nullptr;
   /// The largest second derivative of φ, N/m.
   double (*stiffness)(const Preset&, const Stencil&) = nullptr;
-  /// Upper bound of the eigenvalues of its Hessian over all positions of all particles, N/m; 0 without stiffness.
+  /// The constant that it is proportional to.
+  std::string_view (*constant)(const Preset&) = nullptr;
+  /// Upper bound of the eigenvalues of its Hessian K over all positions of all particles, N/m.
   double (*largest_eigenvalue)(const Preset&) = nullptr;
-  /// Where K u·u <= r·C u·u for the Hessian K and the matrix C of the damping of k_d = 1: r, N/m.
+  /// Largest trace of K's block of one particle along a line, N/m: the sum of w²·stiffness over its stencils.
+  double (*at_particle)(const Preset&) = nullptr;
+  /// r in K <= r·C, where C is the matrix of damping with k_d = 1, N/m.
   double (*over_damping)(const Preset&) = nullptr;
 };
 
@@ -128,12 +132,27 @@ inline void act_along_d(decltype(Force::potential) potential, const Preset& pres
   for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) action.F[n] = -stencil.at[n].weight * at.factor * d;
 }
 
+/// A bound of all forces with a potential together: the sum of theirs.
+inline double sum_of(double (*Force::*bound)(const Preset&), const Preset& preset) {
+  double sum = 0;
+  for (const Force* force : force::all)
+    if (force->potential != nullptr && force->on(preset)) sum += (force->*bound)(preset);
+  return sum;
+}
+
 /// The force of the lattice's springs in that direction, and their constant, N/m.
 inline const Force& spring_force(const Direction& to) {
   return to.bending ? force::bend : force::stretch;
 }
 inline double spring_constant(const Preset& preset, const Direction& to) {
   return to.bending ? preset.k_b : preset.k_s;
+}
+/// Both, for engines that compute the springs by hand.
+struct SpringConstants {
+  double stretch, bend;  ///< N/m
+};
+inline SpringConstants spring_constants(const Preset& preset) {
+  return {preset.k_s, preset.k_b};
 }
 
 /// The stretch springs of the lattice, one stencil a direction, which damping shares.

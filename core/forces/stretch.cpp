@@ -46,8 +46,10 @@ const Force force::stretch{
     .act = Stretch::act,
     .potential = Stretch::potential,
     .stiffness = [](const Preset& p, const Stencil&) { return p.kind == Kind::one_weight ? p.k : p.k_s; },
+    .constant = [](const Preset& p) -> std::string_view { return p.kind == Kind::one_weight ? "k" : "k_s"; },
     // Σ 4 sin² over the four directions is at most 12.
     .largest_eigenvalue = [](const Preset& p) { return p.kind == Kind::one_weight ? p.k : 12 * p.k_s; },
+    .at_particle = [](const Preset& p) { return p.kind == Kind::one_weight ? p.k : 8 * p.k_s; },
     .over_damping = [](const Preset& p) { return p.kind == Kind::one_weight ? p.k : p.k_s; },
 };
 

@@ -165,6 +165,24 @@ void table(std::ostringstream& out, std::span<const Row<T>> list) {
 std::span<const PresetRow> notation() {
   return rows;
 }
+std::span<const Heading> headings() {
+  static const std::array<Heading, 6> list{{
+      {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
+      {"Springs", "forces", {"k_s", "k_b", "k_d", "k"}},
+      {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
+      {"Tearing", "tearing", {"F_max", "F_release"}},
+      {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
+      {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
+  }};
+  return list;
+}
+
+std::string_view heading_of(const PresetRow& row) {
+  for (const Heading& heading : headings())
+    if (std::find(heading.keys.begin(), heading.keys.end(), row.key) != heading.keys.end()) return heading.name;
+  return "constants";
+}
+
 std::span<const BodyRow> body_notation() {
   return body_rows;
 }
@@ -242,7 +260,8 @@ std::string notation_markdown() {
   table<Preset>(out, rows);
   out << "\nOther keys: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
          "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu`, "
-         "`opencl` or `plain`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of `bodies` has "
+         "`opencl` or `plain`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of "
+         "`bodies` has "
          "a `shape`: `sphere` (c, r) or `plane` (y).\n\n";
   table<Body>(out, body_rows);
   out << "\n## Variables\n\nShown for the picked particle, and plotted.\n\n| Symbol | Quantity | Storhet | Unit | "

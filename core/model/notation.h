@@ -47,6 +47,16 @@ using BodyRow = Row<Body>;
 
 /// All numeric and text constants of a preset in the order of the report and of the panel.
 std::span<const PresetRow> notation();
+/// A heading of the panel: its constants in order, then those of `block`, a section of the preset file, that no heading
+/// lists.
+struct Heading {
+  std::string_view name;
+  std::string_view block;
+  std::vector<std::string_view> keys;
+};
+std::span<const Heading> headings();
+/// The heading that lists the constant; "constants" if none does.
+std::string_view heading_of(const PresetRow& row);
 /// Constants of a body; `c`, `r` belong to spheres, `y` to planes.
 std::span<const BodyRow> body_notation();
 /// Row with that inner key, or nullptr.

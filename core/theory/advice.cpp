@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/cloth/state.h"
+#include "core/forces/force.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 #include "core/theory/modes.h"
@@ -92,11 +93,33 @@ std::string stopped_early(const SolveCounts& solves, std::int64_t steps) {
   return of_steps(solves, steps) + " stopped early";
 }
 
+namespace {
+
+/// N/m.
+double largest_constant(const Preset& p) {
+  double most = 0;
+  for_each_stencil(p, [&](const Force& force, const Stencil& stencil) {
+    if (force.stiffness != nullptr) most = std::max(most, force.stiffness(p, stencil));
+  });
+  return most;
+}
+
+/// The force that makes most of the fastest mode's stiffness.
+const Force& stiffest(const Preset& p) {
+  const Force* most = &force::stretch;
+  for (const Force* force : force::all)
+    if (force->potential != nullptr && force->on(p) && force->largest_eigenvalue(p) > most->largest_eigenvalue(p))
+      most = force;
+  return *most;
+}
+
+}  // namespace
+
 std::string precision_too_coarse(const Preset& p) {
   constexpr double much = 0.5;  // of the weight that springs carry: from about here on no step converges
   constexpr double on_earth = 9.82;
   const double digit = last_digit(p), by_stretch = p.k_s * digit;
-  const double force = (p.kind == Kind::one_weight ? p.k : std::max(p.k_s, p.k_b)) * digit;
+  const double force = largest_constant(p) * digit;
   const bool hangs = p.kind == Kind::cloth && p.pins.mode != Pins::Mode::none;
   const double weight = (hangs ? p.rows : 1) * p.m * std::max(std::abs(p.g), on_earth);
   const bool tears = p.kind == Kind::cloth && p.F_max > 0 && by_stretch > p.F_max;
@@ -203,8 +226,7 @@ std::string method_to_blame(const Preset& p) {
 std::string advice(const Preset& p) {
   const Mode fastest = any_configuration(p);
   const bool overdamped = fastest.damping > 2 * fastest.omega();
-  const bool bending = 8 * p.k_b > 12 * p.k_s;  // it makes most of the fastest mode's stiffness
-  const std::string stiffness = overdamped ? "k_d" : p.kind == Kind::one_weight ? "k" : bending ? "k_b" : "k_s";
+  const std::string stiffness = overdamped ? "k_d" : std::string(stiffest(p).constant(p));
   const double verlet_dt = advised_dt(p, "verlet");
   if (chooses_steps(scheme(p.integrator)))
     return "Use " +

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/forces/force.h"
+
 namespace tyglab {
 namespace {
 
@@ -32,8 +34,8 @@ double Mode::omega() const {
 }
 
 Mode any_configuration(const Preset& p) {
-  if (p.kind == Kind::one_weight) return {p.k / p.m, p.k_d / p.m};
-  return {(12 * p.k_s + 8 * p.k_b) / p.m, 12 * p.k_d / p.m};
+  const double springs = p.kind == Kind::one_weight ? 1 : 12;  // as for the stretch springs
+  return {sum_of(&Force::largest_eigenvalue, p) / p.m, springs * p.k_d / p.m};
 }
 
 std::vector<Mode> worst_modes(const Preset& p) {
@@ -41,14 +43,15 @@ std::vector<Mode> worst_modes(const Preset& p) {
   std::vector<Mode> worst{fastest};
   if (p.kind == Kind::one_weight || p.k_d == 0) return worst;
   worst.push_back({0, fastest.damping});  // nothing pulls, but damping acts on every whole spring
-  // A bending spring has no damping of its own: K <= (k_s + 4 k_b)/k_d C.
-  if (p.k_b > 0) worst.push_back({fastest.stiffness, fastest.stiffness * p.k_d / (p.k_s + 4 * p.k_b)});
+  // Only stretch springs have damping of their own: K <= r/k_d C.
+  const double r = sum_of(&Force::over_damping, p);
+  if (r > force::stretch.over_damping(p)) worst.push_back({fastest.stiffness, fastest.stiffness * p.k_d / r});
   return worst;
 }
 
 Spectrum any_spectrum(const Preset& p) {
   const Mode fastest = any_configuration(p);
-  const double stiffness = p.kind == Kind::one_weight ? p.k : p.k_s + 4 * p.k_b;  // as in worst_modes
+  const double stiffness = sum_of(&Force::over_damping, p);  // as in worst_modes
   return {std::max(fastest.damping, fastest.omega()),
           stiffness == 0 ? 0
           : p.k_d > 0    ? stiffness / p.k_d

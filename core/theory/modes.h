@@ -18,8 +18,8 @@ struct Mode {
   double omega() const;  ///< √stiffness, 1/s; 0 where it is negative
 };
 
-/// The bound of all modes in any configuration: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (mass on a spring: k/m,
-/// k_d/m).
+/// The bound of all modes in any configuration: ω² is the sum of the forces' largest eigenvalues over m, damping 12
+/// k_d/m (mass on a spring: k/m, k_d/m).
 Mode any_configuration(const Preset& preset);
 /// The modes that decide whether a method is stable in any configuration: the fastest, and in a damped cloth also modes
 /// between stiffness and damping that are worse for some methods (docs/model.md, "What the shape decides").
@@ -32,7 +32,7 @@ Spectrum any_spectrum(const Preset& preset);
 /// limit (has_step_limit).
 double dt_crit(const Scheme& scheme, std::span<const Mode> modes);
 /// Factor by which all stiffness can grow before the method becomes unstable at dt; 0 if it is unstable at any
-/// stiffness, infinity if at none. With k_b = 0, this factor times k_s is the limit of k_s.
+/// stiffness, infinity if at none. Where springs only stretch, this factor times k_s is the limit of k_s.
 double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, double dt);
 /// Growth per step in the long run, as a natural logarithm, of the fastest growing mode; below 0 all modes decay.
 double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double dt);

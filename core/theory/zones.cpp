@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/forces/force.h"
 #include "core/integrators/scheme.h"
+#include "core/model/notation.h"
 #include "core/theory/modes.h"
 
 namespace tyglab {
@@ -91,6 +93,18 @@ std::string_view zone_name(Zone zone, Kind kind) {
   if (zone == Zone::depends) return "depends on the shape";
   if (zone == Zone::stable) return cloth ? "stable in any shape" : "stable";
   return cloth ? "unstable in every shape" : "unstable";
+}
+
+std::vector<ZonedConstant> zoned_constants(const Preset& p) {
+  std::vector<std::string_view> keys{"dt"};
+  for (const Force* force : force::all)
+    if (force->constant != nullptr) keys.push_back(force->constant(p));
+  keys.insert(keys.end(), {"k_d", "m", "L"});
+  std::vector<ZonedConstant> all;
+  for (const std::string_view key : keys)
+    if (const PresetRow& row = *find_row(key); !row.only_one_kind || row.only == p.kind)
+      all.push_back({row.key, std::get<double Preset::*>(row.field)});
+  return all;
 }
 
 Zone zone_of(const Preset& preset) {

@@ -3,7 +3,6 @@
 // decides").
 #pragma once
 
-#include <array>
 #include <string_view>
 #include <vector>
 
@@ -30,16 +29,9 @@ struct ZonedConstant {
   std::string_view key;
   double Preset::*field;
 };
-/// L has one zone only: the largest frequency does not depend on rest lengths, √((12 k_s + 8 k_b)/m), and its slider
-/// shows that shorter springs are no remedy.
-inline constexpr std::array<ZonedConstant, 6> zoned_cloth{{{"dt", &Preset::dt},
-                                                           {"k_s", &Preset::k_s},
-                                                           {"k_b", &Preset::k_b},
-                                                           {"k_d", &Preset::k_d},
-                                                           {"m", &Preset::m},
-                                                           {"L", &Preset::L}}};
-inline constexpr std::array<ZonedConstant, 5> zoned_weight{
-    {{"dt", &Preset::dt}, {"k", &Preset::k}, {"k_d", &Preset::k_d}, {"m", &Preset::m}, {"L", &Preset::L}}};
+/// Those of the preset's kind: dt, a constant for each force that has one, k_d, m and L. L has one zone only: the
+/// largest frequency of springs does not depend on rest lengths, and its slider shows that shorter ones are no remedy.
+std::vector<ZonedConstant> zoned_constants(const Preset& preset);
 
 /// The present zone; `stable` for methods that are stable at every dt.
 Zone zone_of(const Preset& preset);

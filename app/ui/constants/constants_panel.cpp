@@ -21,30 +21,12 @@
 namespace tyglab {
 namespace {
 
-struct Section {
-  const char* name;
-  std::string_view block;  ///< of the preset file; rows that no section lists come into the section of their block
-  std::vector<std::string_view> keys;
-};
-
-const std::array<Section, 6>& sections() {
-  static const std::array<Section, 6> list{{
-      {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
-      {"Springs", "forces", {"k_s", "k_b", "k_d", "k"}},
-      {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
-      {"Tearing", "tearing", {"F_max", "F_release"}},
-      {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
-      {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
-  }};
-  return list;
-}
-
-std::vector<const PresetRow*> rows_of(const Section& wanted) {
+std::vector<const PresetRow*> rows_of(const Heading& wanted) {
   std::vector<const PresetRow*> rows;
   for (std::string_view key : wanted.keys)
     if (const PresetRow* row = find_row(key)) rows.push_back(row);
   for (const PresetRow& row : notation()) {
-    const bool listed = std::any_of(sections().begin(), sections().end(), [&](const Section& s) {
+    const bool listed = std::any_of(headings().begin(), headings().end(), [&](const Heading& s) {
       return std::find(s.keys.begin(), s.keys.end(), row.key) != s.keys.end();
     });
     if (!listed && !row.section.empty() && row.section == wanted.block) rows.push_back(&row);
@@ -223,12 +205,12 @@ void step_limit_row(Ui& ui) {
   });
 }
 
-void rows(Ui& ui, const Section& wanted) {
+void rows(Ui& ui, const Heading& wanted) {
   for (const PresetRow* row : rows_of(wanted))
     if (applies(*row, ui.session.requested_preset())) constant_row(ui, *row);
 }
 
-bool empty(const Section& wanted, const Preset& preset) {
+bool empty(const Heading& wanted, const Preset& preset) {
   for (const PresetRow* row : rows_of(wanted))
     if (applies(*row, preset)) return false;
   return true;
@@ -276,7 +258,7 @@ void show_constant(Ui& ui, std::string_view key) {
 
 void bring_into_sight(Ui& ui, std::string_view key) {
   ui.slider.shown_key = key;
-  for (const Section& wanted : sections()) {
+  for (const Heading& wanted : headings()) {
     const auto list = rows_of(wanted);
     if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;
     ui.settings.layout.folded.erase(wanted.name);
@@ -286,7 +268,7 @@ void bring_into_sight(Ui& ui, std::string_view key) {
 
 void constants_sections(Ui& ui) {
   const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
-  for (const Section& wanted : sections()) {
+  for (const Heading& wanted : headings()) {
     if (empty(wanted, ui.session.requested_preset())) continue;
     const std::string_view name = wanted.name;
     if (name == "Cloth" && cloth) body_sections(ui);

@@ -11,9 +11,9 @@ namespace tyglab {
 namespace {
 
 double value_of(const Preset& preset, std::string_view key) {
-  for (const auto& zoned : zoned_cloth)
+  for (const ZonedConstant& zoned : zoned_constants(preset))
     if (zoned.key == key) return preset.*zoned.field;
-  return preset.k;
+  return 0;
 }
 
 std::string no_part_of_it(std::string_view key) {

@@ -16,6 +16,7 @@
 #include "core/engines/cpu/parts.h"
 #include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
+#include "core/forces/force.h"
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 #include "core/simd/row_field.h"
@@ -54,6 +55,12 @@ struct ResolvedSweep {
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other kinds
   const ResolvedEstimate* estimate = nullptr;         ///< measured for each row, unless null
 };
+
+/// The features of the pair sweep that a scene needs.
+inline unsigned features_of(const Preset& preset) {
+  return (force::bend.on(preset) ? bending : 0u) | (force::damping.on(preset) ? damping : 0u) |
+         (force::wind.on(preset) ? wind : 0u);
+}
 
 /// What all bands share: the arrays and the scene.
 template <class R>

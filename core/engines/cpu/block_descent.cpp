@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/forces/force.h"
+
 namespace tyglab::cpu {
 namespace {
 
@@ -30,7 +32,8 @@ void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double 
   const Preset& p = cloth.preset;
   assert(h > 0 && p.m > 0 && p.L > 0);
   assert(rows_ == 0 || (rows_ == cloth.lattice.rows && columns_ == cloth.lattice.columns));
-  constants_ = {h * h * p.k_s / p.m, h * h * p.k_b / p.m, h * p.k_d / p.m, p.L};
+  const auto [stretch, bend] = spring_constants(p);
+  constants_ = {h * h * stretch / p.m, h * h * bend / p.m, h * p.k_d / p.m, p.L};
   h_ = h, gravity_ = p.g;
   if (rows_ == 0) {
     const int longest = (cloth.lattice.columns + colors - 1) / colors;

@@ -121,8 +121,7 @@ void CpuEngine<R, Present>::resolve() {
   }
   start_ = scheme_->start.empty() ? ResolvedSweep() : resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
   make_waves();  // the last that takes memory
-  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
-                    (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
+  cloth_.features = features_of(cloth_.preset);
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,

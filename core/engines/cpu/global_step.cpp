@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "core/forces/force.h"
+
 namespace tyglab::cpu {
 namespace {
 
@@ -14,7 +16,8 @@ template <class R>
 bool GlobalStep<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed, const Stop& stop) {
   const Preset& p = cloth.preset;
   assert(h > 0 && p.m > 0);
-  const SpringWeights weights{(h * h * p.k_s + h * p.k_d) / p.m, h * h * p.k_b / p.m};
+  const auto [stretch, bend] = spring_constants(p);
+  const SpringWeights weights{(h * h * stretch + h * p.k_d) / p.m, h * h * bend / p.m};
   if (ready_ && !changed && weights == weights_) return true;
   changed = changed || !ready_;
   ready_ = false;

@@ -1,5 +1,5 @@
-// The global step of projective dynamics: A s = r with A = 1 + h²/m (k_s L_s + k_b L_b) + h k_d/m L_s, where L_s and
-// L_b are the graph Laplacians of the intact stretch and bending springs, and pinned and held particles stay at 0. One
+// The global step of projective dynamics: A s = r with A = 1 + h²/m Σ k L_k + h k_d/m L_s, where L_k and
+// L_s are the graph Laplacians of the intact stretch and bending springs, and pinned and held particles stay at 0. One
 // matrix A serves x, y and z, independently of the motion. It is factorized once if its factor is small enough and
 // faster than products; otherwise the Chebyshev iteration solves. S. Bouaziz et al., ACM Trans. Graph. 33, 154 (2014),
 // 3; T. Liu et al., ACM Trans. Graph. 32, 214 (2013).

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/forces/force.h"
+
 namespace tyglab::cpu {
 
 using namespace implicit;
@@ -253,7 +255,7 @@ void ImplicitSolver<R>::linearize_row(int d, int i) {
   const Preset& p = cloth().preset;
   const Field& x = position();
   const double dt = task_.dt;
-  const R rest = R(to.rest * p.L), k = R(dt * dt * (to.bending ? p.k_b : p.k_s) / p.m);
+  const R rest = R(to.rest * p.L), k = R(dt * dt * spring_constant(p, to) / p.m);
   const R damped = to.bending ? R(0) : R(dt * p.k_d / p.m), least = R(1e-9) * rest;
   // Stored at the lower end of a spring to the lower left, at the owner otherwise.
   const int shift = to.dj == -1 ? 1 : 0, columns = cloth().lattice.columns - std::abs(to.dj);

@@ -53,9 +53,9 @@ class PairSweep {
         x_(task.x),
         v_(task.v),
         f_{task.f[0], task.f[1], task.f[2], task.f[3]},
-        straight_(Spring<L>::of(task.k_s, task.L * directions[0].rest, &L::all)),
-        diagonal_(Spring<L>::of(task.k_s, task.L * directions[2].rest, &L::all)),
-        bending_(Spring<L>::of(task.k_b, task.L * directions[4].rest, &L::all)),
+        straight_(Spring<L>::of(task.stretch, task.L * directions[0].rest, &L::all)),
+        diagonal_(Spring<L>::of(task.stretch, task.L * directions[2].rest, &L::all)),
+        bending_(Spring<L>::of(task.bend, task.L * directions[4].rest, &L::all)),
         k_d_(L::all(task.k_d)),
         weight_(L::all(task.weight)),
         v_to_x_(L::all(task.v_to_x)),
@@ -298,7 +298,7 @@ void sweep_pair(const PairTask<R>& task) {
   constexpr unsigned all = feature_sets - 1;
   if constexpr (fallback && F != all) {
     PairTask<R> t = task;
-    if ((F & bending) == 0) t.k_b = 0;
+    if ((F & bending) == 0) t.bend = 0;
     if ((F & damping) == 0) t.k_d = 0;
     if ((F & wind) == 0) t.W[0] = t.W[1] = t.W[2] = 0;
     sweep_pair<R, all, displacements>(t);

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/forces/force.h"
+
 namespace tyglab::cpu {
 namespace {
 
@@ -145,7 +147,7 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
   for (std::size_t d = 0; d < directions.size(); ++d) {
     ProjectionRow<R>& row = of_direction[d];
     row.rest = directions[d].rest * p.L, row.pushes = directions[d].bending;
-    row.soften(p.m / ((row.pushes ? p.k_b : p.k_s) * cloth.dt * cloth.dt));
+    row.soften(p.m / (spring_constant(p, directions[d]) * cloth.dt * cloth.dt));
   }
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
@@ -153,7 +155,7 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
     // Read by all after the barriers of this iteration, and written again after those of the next.
     bool& stopped = stopped_[n % 2];
     if (begin == 0) stopped = n > 0 && !goes_on(n);
-    in_colors(begin, end, p.k_b > 0, team, [&](const Color& color, int i) {
+    in_colors(begin, end, force::bend.on(p), team, [&](const Color& color, int i) {
       project_color(cloth, q, color, i, of_direction[std::size_t(color.direction)]);
     });
     if (stopped) return false;

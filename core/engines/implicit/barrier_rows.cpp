@@ -119,7 +119,7 @@ HWY_INLINE void store_spring(V a, L t, R* to, std::ptrdiff_t stride) {
 template <class R>
 BarrierSums linearize(const BarrierRow& row, double* forces, double* right, R* coefficients, std::ptrdiff_t to) {
   const std::ptrdiff_t stride = row.stride;
-  const L k_s = L::all(row.constants.stretch), k_b = L::all(row.constants.bend), k_d = L::all(row.constants.damping);
+  const L k_s = L::all(row.constants.stretch), push_k = L::all(row.constants.bend), k_d = L::all(row.constants.damping);
   Scatter scatter_forces, scatter_right;
   L products, force;
   for (int j = 0; j < row.columns; j += lanes) {
@@ -150,9 +150,9 @@ BarrierSums linearize(const BarrierRow& row, double* forces, double* right, R* c
       const Length length = length_of(apart<d>(row.x + j, stride), rest);
       const L whole = L::load(row.whole + d * stride + j);
       const L shorter = negative(length.r - L::all(rest));
-      const L push = if_greater(length.r, L::all(shortest * rest), k_b * shorter * whole);
+      const L push = if_greater(length.r, L::all(shortest * rest), push_k * shorter * whole);
       f[d] = g[d] = push * length.n;
-      const L root = hn::Sqrt(L(hn::IfThenElseZero(hn::Lt(push.v, hn::Zero(D())), k_b.v)).v);
+      const L root = hn::Sqrt(L(hn::IfThenElseZero(hn::Lt(push.v, hn::Zero(D())), push_k.v)).v);
       store_spring(root * length.n, L(), coefficients + d * spring_parts * to + j, to);
       force = larger(force, L(hn::Neg(push.v)));
     };

@@ -7,7 +7,7 @@
 namespace tyglab::implicit {
 
 struct BarrierConstants {
-  double stretch, bend, damping;  ///< k_s h²/m, k_b h²/m, k_d h/m
+  double stretch, bend, damping;  ///< of springs k h²/m, and k_d h/m
   double L;                       ///< m
 };
 

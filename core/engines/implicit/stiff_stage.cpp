@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/forces/force.h"
 #include "core/forces/spring-inl.h"
 #include "core/forces/wind-inl.h"
 
@@ -59,6 +60,7 @@ template <class R, class S>
 Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& task, SolveCounts& counts) {
   const Preset& p = task.preset;
   const double h = task.h, scale = h * h / p.m;
+  const SpringConstants springs = spring_constants(p);
   assert(possible(p) && h > 0 && p.m > 0 && task.stride >= task.lattice.columns);
   assert(task.fixed.empty() || task.fixed.size() >= std::size_t(task.lattice.size()));
   if (!solver.resize(task.lattice, task.stops)) return {};
@@ -70,17 +72,18 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
     solver.x().row(i, c)[j] = fixed ? end : double(task.x[n]);
   });
   if (!begun) return {};
-  typename InteriorPoint<S>::Task inner{.constants = {p.k_s * scale, p.k_b * scale, p.k_d * h / p.m, p.L},
-                                        .gravity = h * h * p.g,
-                                        .weight = weight_scale(p.g, h),
-                                        .tolerance = task.tolerance,
-                                        .tears = &task.tears,
-                                        .fixed = task.fixed,
-                                        .others = {},
-                                        .stops = task.stops,
-                                        .out_of_time = task.out_of_time,
-                                        .progress = task.progress,
-                                        .crew = task.crew};
+  typename InteriorPoint<S>::Task inner{
+      .constants = {springs.stretch * scale, springs.bend * scale, p.k_d * h / p.m, p.L},
+      .gravity = h * h * p.g,
+      .weight = weight_scale(p.g, h),
+      .tolerance = task.tolerance,
+      .tears = &task.tears,
+      .fixed = task.fixed,
+      .others = {},
+      .stops = task.stops,
+      .out_of_time = task.out_of_time,
+      .progress = task.progress,
+      .crew = task.crew};
   if (p.W != glm::dvec3(0))
     inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
   const Balance balance = solver.solve(inner, counts);

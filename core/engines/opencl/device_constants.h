@@ -10,8 +10,8 @@ inline constexpr int most_coefficients = 16;  ///< in the sums of one sweep
 /// Constants of cloth.cl.
 template <class R>
 struct DeviceConstants {
-  R k_s = 0, straight = 0, diagonal = 0;
-  R k_b = 0, bending = 0, shortest2 = 0;
+  R stretch = 0, straight = 0, diagonal = 0;
+  R bend = 0, bending = 0, shortest2 = 0;
   R k_d = 0;
   R weight = 0;
   R wind[3] = {};
@@ -40,7 +40,7 @@ struct DeviceContact {
 /// Linear of implicit.cl.
 template <class R>
 struct DeviceLinear {
-  R k_s = 0, k_b = 0, k_d = 0;
+  R stretch = 0, bend = 0, k_d = 0;
   R own = 1;
   R straight = 0, diagonal = 0, bending = 0;
   R shortest = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/engines/opencl/device.h"
+#include "core/forces/force.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::opencl {
@@ -143,7 +144,8 @@ int DeviceSolver<R>::set_system(const Kernel& kernel) const {
   const Preset& p = *task_.preset;
   const double h = task_.h, L = p.L;
   constexpr double shortest = 1e-9;  // as in spring-inl.h
-  const DeviceLinear<R> linear{R(h * h * p.k_s / p.m),    R(h * h * p.k_b / p.m),
+  const auto [stretch, bend] = spring_constants(p);
+  const DeviceLinear<R> linear{R(h * h * stretch / p.m),  R(h * h * bend / p.m),
                                R(h * p.k_d / p.m),        R(own_stiffness(p, h)),
                                R(directions[0].rest * L), R(directions[2].rest * L),
                                R(directions[4].rest * L), R(shortest * directions[4].rest * L)};

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/forces/force.h"
 #include "core/io/output_file.h"
 #include "core/io/system_files.h"
 
@@ -65,10 +66,10 @@ namespace tyglab::opencl {
 
 std::string program_features(const Preset& preset, bool contacts) {
   std::string text;
-  if (preset.k_d > 0) text += " -D DAMPING";
+  if (force::damping.on(preset)) text += " -D DAMPING";
   if (preset.kind == Kind::one_weight) return text + " -D ONE_WEIGHT";
-  if (preset.k_b > 0) text += " -D BENDING";
-  if (preset.W != glm::dvec3(0)) text += " -D WIND";
+  if (force::bend.on(preset)) text += " -D BENDING";
+  if (force::wind.on(preset)) text += " -D WIND";
   if (meets_bodies(preset)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
   return text;
 }

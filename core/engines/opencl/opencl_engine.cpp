@@ -9,6 +9,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/forces/contact.h"
+#include "core/forces/force.h"
 #include "core/model/effect.h"
 
 namespace tyglab::opencl {
@@ -81,9 +82,10 @@ template <class R>
 DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& sweep) const {
   const double scale = scheme_->keeps_displacement ? p.dt : 1;
   Constants k;
-  k.k_s = R(p.k_s), k.straight = R(-p.k_s * directions[0].rest * p.L / 2),
-  k.diagonal = R(-p.k_s * directions[2].rest * p.L / 2);
-  k.k_b = R(p.k_b), k.bending = R(-p.k_b * directions[4].rest * p.L / 2);
+  const auto [stretch, bend] = spring_constants(p);
+  k.stretch = R(stretch), k.straight = R(-stretch * directions[0].rest * p.L / 2),
+  k.diagonal = R(-stretch * directions[2].rest * p.L / 2);
+  k.bend = R(bend), k.bending = R(-bend * directions[4].rest * p.L / 2);
   constexpr double shortest = 1e-9;  // as in spring-inl.h
   k.shortest2 = R(std::pow(shortest * directions[4].rest * p.L, 2));
   k.k_d = R(p.k_d * power(p.dt, sweep.velocity_dt_power));

@@ -1,5 +1,6 @@
 // Everything that the host reads from an OpenCL engine.
 #include "core/engines/opencl/opencl_engine.h"
+#include "core/forces/force.h"
 
 namespace tyglab::opencl {
 
@@ -82,8 +83,8 @@ template <class R>
 std::vector<StepFeature> OpenClEngine<R>::features() const {
   const Preset& p = preset_;
   const bool cloth = p.kind == Kind::cloth;
-  return {{"bending", cloth && p.k_b > 0}, {"damping", p.k_d > 0},       {"wind", cloth && p.W != glm::dvec3(0)},
-          {"bodies", meets_bodies(p)},     {"tearing", tears_watched()}, {"pins", !pinned_.empty()},
+  return {{"bending", force::bend.on(p)}, {"damping", force::damping.on(p)}, {"wind", force::wind.on(p)},
+          {"bodies", meets_bodies(p)},    {"tearing", tears_watched()},      {"pins", !pinned_.empty()},
           {"hand", held_.particle >= 0}};
 }
 
