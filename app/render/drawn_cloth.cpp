@@ -55,7 +55,8 @@ void DrawnCloth::take_tears(const Tears& tears) {
 
 ClothScene DrawnCloth::scene(const ClothScene& whole) const {
   PositionView view{lattice_.rows, lattice_.columns, 3 * lattice_.columns};
-  for (int c = 0; c < 3; ++c) view.f[c] = positions_.data() + std::ptrdiff_t(c) * lattice_.columns;
+  if (!positions_.empty())
+    for (int c = 0; c < 3; ++c) view.f[c] = positions_.data() + std::ptrdiff_t(c) * lattice_.columns;
   std::function<bool(int, int)> pinned;
   if (whole.pinned) pinned = [this, &whole](int i, int j) { return whole.pinned(sites_.row(i), sites_.column(j)); };
   return {view, lattice_, tears_, whole.preset, pinned, whole.writer};

@@ -206,9 +206,12 @@ void TexelArray::write(const std::byte* from, std::size_t texels) {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, GLuint(source));
   }
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, int(full), format.layout, format.type, from);
-  if (rest > 0)
+  if (rest > 0) {
+    // An offset in a buffer is no pointer to add to.
+    const auto last = std::uintptr_t(from) + full * width * format.bytes;
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, int(full), int(rest), 1, format.layout, format.type,
-                    from + full * width * format.bytes);
+                    reinterpret_cast<const void*>(last));
+  }
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 

@@ -10,6 +10,7 @@ template <class R>
 EngineForces<R>::EngineForces(const Preset& preset) : tears_(lattice_of(preset)) {
   cloth_.preset = preset;
   cloth_.lattice = lattice_of(preset);
+  cloth_.dt = preset.dt;
   cloth_.stride = simd::row_stride<R>(cloth_.lattice.columns);
   cloth_.sweeps = cpu::pair_sweeps<R>();
   cloth_.features = cpu::features_of(preset);
