@@ -51,6 +51,7 @@ struct InputQueue {
   bool by_touch = false;               ///< fingers point, on a screen that they touch: no buttons, no hovering
   bool scale_changed = false;          ///< the window went to a monitor with another content scale
   bool anything = false;               ///< an event of any kind arrived
+  bool field_opens = false;            ///< what was typed in this frame is for a field that takes keys in a later one
   bool unread = false;                 ///< Dear ImGui has not yet been shown everything that was typed
   bool unshown = false;                ///< nor all else that happened: it comes in the next frames
   bool double_click = false;           ///< the left button went down for the second time at the same place, just now

@@ -32,6 +32,16 @@ std::string steady_vector(const glm::dvec3& value) {
   return "(" + steady_number(value.x) + ", " + steady_number(value.y) + ", " + steady_number(value.z) + ")";
 }
 
+std::string table_number(double value) {
+  const double size = std::abs(value);
+  if (size >= 99999.5) return power_number(value, 1);
+  const bool fixed = (size > 0 && size < 0.0995) || size >= 999.5;
+  if (!fixed) return steady_number(value);
+  char text[16];
+  std::snprintf(text, sizeof text, "%.*f", size < 1 ? 3 : 0, size < 0.0005 ? 0 : value);  // no "-0.000"
+  return text;
+}
+
 std::string time_number(double t, double dt) {
   const int decimals = dt > 0 ? std::clamp(int(std::ceil(-std::log10(dt) - 1e-9)), 3, 9) : 3;
   return print("%.*f", decimals, t);

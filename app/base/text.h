@@ -47,6 +47,8 @@ std::string link_to(const Preset& preset, const std::string& label);
 std::string steady_number(double value);
 /// "(1.00, -2.50·10⁻³, 0)": each as steady_number.
 std::string steady_vector(const glm::dvec3& value);
+/// A number of a table whose unit suits its largest: three digits of that one, three decimals of what is far smaller.
+std::string table_number(double value);
 /// A simulated time, with as many decimals as show a single step of dt (three at least): "0.4213".
 std::string time_number(double t, double dt);
 /// Significant digits, four at least, that show the ends of a span with an error of a twentieth of the span at most.

@@ -3,16 +3,16 @@
 
 #include <fcntl.h>
 #include <io.h>
-#include <windows.h>
-// Needs the types of windows.h.
 #include <shellapi.h>
-
+#include <windows.h>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
+
+// Last, since it needs the other.
 
 namespace tyglab {
 

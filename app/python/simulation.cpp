@@ -48,6 +48,9 @@ class Motion {
     if (const std::string problem = check_preset(preset); !problem.empty()) throw PresetError(problem);
     if (threads < 1 || threads > 256) throw py::value_error("threads must be from 1 to 256");
     simulation_ = std::make_unique<Simulation>(preset, threads);
+    // As `tyglab run` says it at its start. A filter may make it an exception.
+    const std::string coarse = precision_too_coarse(preset);
+    if (!coarse.empty() && PyErr_WarnEx(PyExc_UserWarning, coarse.c_str(), 1) != 0) throw py::error_already_set();
   }
 
   const Simulation& at_rest() const {

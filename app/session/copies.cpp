@@ -211,6 +211,9 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
   const auto add = [&](std::string label, Difference difference, std::string_view group) {
     choices.push_back({std::move(label), {std::move(difference)}, group});
   };
+  for (const Scheme& method : schemes())
+    if (method.name != preset.integrator)
+      add(std::string(method.title), {&Preset::integrator, std::string(method.name)}, "Method");
   const auto with_dt = [&](const char* label, double dt) {
     add(label + short_number(dt) + " s", {&Preset::dt, rounded(dt, 6)}, "Step");
   };
@@ -219,9 +222,6 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
   add(std::string(name_of(other)), {&Preset::precision, other}, "Precision");
   if (!cpu) add("CPU", {&Preset::engine, EngineKind::cpu}, "Engine");
   if (cpu && runs_on_opencl(scheme(preset.integrator))) add("OpenCL", {&Preset::engine, EngineKind::opencl}, "Engine");
-  for (const Scheme& method : schemes())
-    if (method.name != preset.integrator)
-      add(std::string(method.title), {&Preset::integrator, std::string(method.name)}, "Method");
   for (CopyChoice& choice : choices)
     if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back(&Preset::engine, EngineKind::cpu);
   return choices;

@@ -163,9 +163,10 @@ std::string with_goal(Session& session, const Condition& check) {
 }
 
 /// "lower it, then restart", "set it to 180 N/m or more, then restart": what mends a broken check; the restart alone
-/// where the value is right by now.
+/// where the value is right by now, or is a result, which nobody can set.
 std::string cure_in_words(Session& session, const Condition& check) {
-  if (judge_now(session, check) == CheckState::holds) return "restart";
+  const bool result = !is_word(check.name) && find_observable(check.name) != nullptr;
+  if (result || judge_now(session, check) == CheckState::holds) return "restart";
   if (is_word(check.name)) return "choose " + goal_in_words(session, check) + ", then restart";
   if (!check.to_find) return "set it to " + goal_in_words(session, check) + ", then restart";
   return std::string(is_upper(check.relation)   ? "lower it"
@@ -311,8 +312,12 @@ CheckState judge(Session& session, const Condition& check, MotionChange change, 
   switch (check.span) {
     case Span::now:
       return now;
-    case Span::throughout:
-      return judge_throughout(session, check, now, memory);
+    case Span::throughout: {
+      const CheckState state = judge_throughout(session, check, now, memory);
+      // What was touched when the first steps have been made was touched before them.
+      if (change == MotionChange::begun && memory.set && check.name == "untouched") memory.t = 0;
+      return state;
+    }
     case Span::once:
       return judge_once(session, check, now, memory);
     case Span::lasting:

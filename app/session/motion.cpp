@@ -3,6 +3,8 @@
 #include <cassert>
 #include <memory>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "app/base/text.h"
 #include "app/session/session.h"
@@ -75,6 +77,15 @@ bool take_back(Session& session, const Preset& preset) {
 
 namespace {
 
+/// What was said of an earlier undo or redo is no news any more.
+void say_taken(Session& session, const std::string& said) {
+  const std::vector<Message> list = session.messages.list();
+  for (const Message& message : list)
+    if (message.text.starts_with("Undone: ") || message.text.starts_with("Redone: "))
+      session.messages.take_back(message.text);
+  session.messages.note(said);
+}
+
 /// Undoes or redoes what was done with a copy; the cloth itself and its constants stay as they are.
 void take_copy_from_history(Session& session, bool backwards, const std::string& what, const CopyChange& change) {
   if (session.rebuild.busy())
@@ -84,7 +95,7 @@ void take_copy_from_history(Session& session, bool backwards, const std::string&
     HistoryEntry now{session.requested_preset(), session.copies.t, what};
     now.copy = std::make_shared<const CopyChange>(undo_copy_change(session, change, said));
     session.history.take(backwards, std::move(now));
-    session.messages.note(said + ".");
+    say_taken(session, said + ".");
   } catch (const std::bad_alloc&) {
     session.messages.error("There is not enough memory for that copy. Nothing was changed.");
   } catch (const std::exception& error) {
@@ -123,7 +134,7 @@ void take_from_history(Session& session, bool backwards) {
     said += ". The cloth is at t = " + time_number(then.t, next.dt) + " s again" +
             (session.copies.lockstep.empty() ? "" : ", and its copies start from there");
   }
-  session.messages.note(said + ".");
+  say_taken(session, said + ".");
 }
 
 void reset_everything(Session& session) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/session/lab_check.h"
+#include "app/session/motion.h"
 #include "app/session/session.h"
 #include "core/cloth/lattice.h"
 #include "core/integrators/scheme.h"
@@ -164,7 +165,7 @@ const std::array rows_but_forces{
                .unit = "s",
                .meaning = "Simulated time.",
                .place = "top bar",
-               .number = [](Session& session) -> Known { return session.simulation->time(); }},
+               .number = [](Session& session) -> Known { return clock_time(session); }},
     Observable{.name = "steps",
                .meaning = "Steps of dt since the start.",
                .place = "top bar",

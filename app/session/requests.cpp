@@ -29,7 +29,8 @@ void follow_constants(Session& session, Preset& next) {
   if (!changes(session.requested_preset(), next).within(appearance)) next.dt = *dt;
 }
 
-/// Another method that the present engine does not run brings the CPU engine with it. Returns what is to be said of that.
+/// Another method that the present engine does not run brings the CPU engine with it. Returns what is to be said of
+/// that.
 std::string take_engine_along(const Session& session, Preset& next) {
   if (next.engine == EngineKind::cpu || next.integrator == session.requested_preset().integrator) return {};
   const Scheme& method = scheme(next.integrator);

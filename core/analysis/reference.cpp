@@ -143,8 +143,7 @@ Track odeint_track(const AccuracyScene& scene, double tolerance, const Stop& sto
       change[n] = v[n / 3][int(n % 3)] = from[half + n];
     }
     const plain::Vector F = plain::forces(preset, whole, x, v);
-    for (std::size_t n = 0; n < half; ++n)
-      change[half + n] = pinned[n / 3] != 0 ? 0 : F[n / 3][int(n % 3)] / preset.m;
+    for (std::size_t n = 0; n < half; ++n) change[half + n] = pinned[n / 3] != 0 ? 0 : F[n / 3][int(n % 3)] / preset.m;
   };
   const auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<Numbers>>(tolerance, 0.0);
   Track track;

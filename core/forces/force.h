@@ -1,7 +1,7 @@
 // Forces as data. A force acts on stencils: up to four particles in fixed places of the lattice. One file a force
 // (stretch.cpp, bend.cpp, …) says what it does to a single stencil, in double; the table below lists them all.
 // Read-outs, energies, the plain engine, bounds of frequencies and panels are loops over this table. The fast engines
-// compute the springs and the wind by hand, and tests hold them against it. docs/adding-a-force.md adds one.
+// compute the springs and the wind by hand, and tests hold them against it.
 #pragma once
 
 #include <array>

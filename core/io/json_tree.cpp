@@ -145,6 +145,8 @@ class JsonReader {
     fail("a value was expected here: a number, a \"string\", a [list] or an object {…}");
   }
   void refuse_bytes() const {
+    if (text_.starts_with("\x89PNG") || text_.starts_with("\xFF\xD8\xFF"))
+      refuse("this is an image, not a preset; the cloth takes it as its texture");
     if (utf8_length(text_.substr(at_)) == 0) fail("these bytes are not UTF-8 text; save the file as UTF-8");
   }
   void refuse_comment() const {

@@ -171,8 +171,10 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::fail(int error) const {
-  std::string what =
-      kind_ == Kind::gathered ? "the temporary file of " + lost_output(file_, error) : lost_output(file_, error);
+  if (kind_ == Kind::gathered)
+    throw OutputError("standard output is collected in a temporary file in " + os::temporary_folder().string() +
+                      ", which failed: " + std::strerror(error) + "; name a file instead of -");
+  std::string what = lost_output(file_, error);
   if (kind_ == Kind::beside && kept_ > 0) what += "; what was complete before is kept in " + beside_.string();
   throw OutputError(what);
 }

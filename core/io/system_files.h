@@ -35,6 +35,8 @@ int open_present(const std::filesystem::path& file);
 int open_stream(const std::filesystem::path& file);
 /// Opens a file without a name, which is gone once it is closed.
 int open_temporary();
+/// Where that file takes up space.
+std::filesystem::path temporary_folder();
 void close(int descriptor);
 /// Closes it; false if what was written did not arrive.
 bool close_written(int descriptor);

@@ -60,6 +60,10 @@ int open_temporary() {
   return temporary ? ::fcntl(::fileno(temporary.get()), F_DUPFD_CLOEXEC, 0) : -1;
 }
 
+fs::path temporary_folder() {
+  return P_tmpdir;
+}
+
 void close(int descriptor) {
   ::close(descriptor);
 }

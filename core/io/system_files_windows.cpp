@@ -121,9 +121,13 @@ int open_stream(const fs::path& file) {
   return open_file(file, GENERIC_WRITE, OPEN_EXISTING);
 }
 
-int open_temporary() {
+fs::path temporary_folder() {
   std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
+  return fs::temp_directory_path(error);
+}
+
+int open_temporary() {
+  const fs::path folder = temporary_folder();
   for (unsigned n = 0; n < 1000; ++n) {
     const fs::path file = folder / ("tyglab-" + std::to_string(::GetCurrentProcessId()) + "-" + std::to_string(n));
     const int opened = open_file(file, GENERIC_READ | GENERIC_WRITE | DELETE, CREATE_NEW, FILE_FLAG_DELETE_ON_CLOSE);

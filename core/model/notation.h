@@ -50,7 +50,7 @@ std::span<const PresetRow> notation();
 /// A heading of the panel: its constants in order, then those of `block`, a section of the preset file, that no heading
 /// lists.
 struct Heading {
-  std::string_view name;
+  const char* name;
   std::string_view block;
   std::vector<std::string_view> keys;
 };

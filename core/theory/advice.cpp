@@ -87,13 +87,14 @@ std::string of_steps(const SolveCounts& solves, std::int64_t steps) {
   return grouped(solves.unconverged) + " of " + grouped(steps) + (steps == 1 ? " step" : " steps");
 }
 
-}  // namespace
+/// Whether more digits would have solved most of those that have not converged.
+bool by_rounding(const SolveCounts& solves, const Preset& p) {
+  return 2 * solves.rounded >= solves.unconverged && !counts_passes(scheme(p.integrator));
+}
 
 std::string stopped_early(const SolveCounts& solves, std::int64_t steps) {
   return of_steps(solves, steps) + " stopped early";
 }
-
-namespace {
 
 /// N/m.
 double largest_constant(const Preset& p) {
@@ -114,6 +115,12 @@ const Force& stiffest(const Preset& p) {
 }
 
 }  // namespace
+
+std::string unsolved(const SolveCounts& solves, std::int64_t steps, const Preset& p) {
+  if (!by_rounding(solves, p)) return stopped_early(solves, steps);
+  return of_steps(solves, steps) + " unbalanced by rounding to " + std::string(name_of(p.precision)) +
+         (p.precision == Precision::float_ ? ": use double" : "");
+}
 
 std::string precision_too_coarse(const Preset& p) {
   constexpr double much = 0.5;  // of the weight that springs carry: from about here on no step converges
@@ -144,10 +151,10 @@ std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const P
   const std::string left = !std::isfinite(worst) ? "forces are not numbers"
                            : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the force unbalanced"
                                        : "up to " + power_number(worst, 2) + " times the largest force unbalanced";
-  const bool passing = counts_passes(scheme(p.integrator)), rounded = 2 * solves.rounded >= solves.unconverged;
+  const bool passing = counts_passes(scheme(p.integrator));
   const std::string digits = "with springs this stiff, rounding positions to " + std::string(name_of(p.precision)) +
                              " changes forces that much. ";
-  if (rounded && !passing)
+  if (by_rounding(solves, p))
     return "Forces do not balance in " + of_steps(solves, steps) + " (" + left + "): " + digits + finer_precision(p);
   const std::string count = stopped_early(solves, steps) + " (" + left + ")";
   std::string method(scheme(counts_passes(scheme(p.integrator)) ? "implicit_euler" : p.integrator).title);
@@ -165,7 +172,7 @@ std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const P
                                                     : "them") +
            " (the longest took " + short_number(1000 * solves.longest_limited, 2) +
            " ms). Allow more time per step, or use a smaller dt.";
-  if (rounded) return said + passes + "Also, " + digits + finer_precision(p);
+  if (2 * solves.rounded >= solves.unconverged) return said + passes + "Also, " + digits + finer_precision(p);
   const bool more = p.iterations < int(find_row("iterations")->max);
   return said + passes + (more ? "Use a smaller dt or more iterations." : "Use a smaller dt.");
 }

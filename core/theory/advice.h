@@ -27,8 +27,9 @@ std::string excess_in_words(double excess, const Preset& preset);
 /// A sentence about energy that the scene cannot have supplied, and a remedy; empty if there is none.
 std::string energy_in_excess(double excess, const Preset& preset);
 
-/// "12 of 3,400 steps stopped early"; `steps`: the number of steps made.
-std::string stopped_early(const SolveCounts& solves, std::int64_t steps);
+/// "12 of 3,400 steps stopped early", or that rounding is the reason, and the remedy; `steps`: the number of steps
+/// made.
+std::string unsolved(const SolveCounts& solves, std::int64_t steps, const Preset& preset);
 /// A sentence about steps that did not converge, and a remedy; empty if all did.
 std::string solves_missed(const SolveCounts& solves, std::int64_t steps, const Preset& preset);
 

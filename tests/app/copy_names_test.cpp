@@ -41,6 +41,14 @@ TEST_CASE("an accurate solution is called so, and its settings are told whole") 
   CHECK(name_of_cloth(session, 1) == "Dormand-Prince 5(4), tolerance = 1e-8");
 }
 
+TEST_CASE("of the groups of what copies differ in, methods come first") {
+  for (const CopyChoice& choice : copy_choices(test::cloth(6, 6)))
+    if (!choice.group.empty()) {
+      CHECK(choice.group == "Method");
+      break;
+    }
+}
+
 TEST_CASE("a choice of dt is the number that its label says, to six digits") {
   Preset preset = test::cloth(6, 6);
   preset.dt = 1.0 / 3000;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/base/text.h"
 #include "app/session/observables.h"
 #include "core/model/words.h"
 #include "tests/app/lab_player.h"
@@ -79,6 +80,22 @@ TEST_CASE("the card says what is now, and of what is to be found no more than th
   play.set("k_s=300");
   play.run(1);
   CHECK(play.card(2) == "Diverged? Yes");
+}
+
+TEST_CASE("what was changed before the first step is told at t = 0, and no result is to be set") {
+  LabPlayer play("02_euler");
+  play.skip();
+  play.skip();
+  play.choose(2);
+  play.set("dt=0.264");
+  play.run(3);
+  REQUIRE(play.session().simulation->divergence());
+  CHECK(play.card(1) ==
+        "dt was changed from 0.01 to 0.264 s at t = 0.000 s: restart, and change only what the task names");
+  CHECK(
+      says(play.card(2), " · now " + time_number(play.session().simulation->divergence()->t, 0.264) + " s (top bar)"));
+  CHECK(says(play.card(3), "energy was "));
+  CHECK(play.card(3).ends_with(" s: restart"));
 }
 
 TEST_CASE("what a check compares with is told with its value in the previous lab step") {

@@ -65,6 +65,7 @@ TEST_CASE("a cut is taken back with the moment in which it was made, and nothing
   CHECK(said(session, "Undone: cut. The cloth is at t = 0.060 s again."));
 
   take_from_history(session, false);
+  CHECK_FALSE(said(session, "Undone: cut"));  // nothing older is told after it
   CHECK(session.simulation->tears().torn_count() == all_torn);
   CHECK(glm::distance(session.simulation->position(4, 4), later) < 1e-12);
   CHECK(said(session, "Redone: cut."));

@@ -141,6 +141,7 @@ TEST_CASE("2: the command line is wrong, --set included") {
        {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
        {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
        {{"--size", "320x240", "--frames", "1"}, 2, "at least 480x320"},
+       {{"--lab", "02_euler", "--lab-step", "4", "--frames", "1"}, 2, "--lab-step: 4 is not allowed; allowed: 1 to 3"},
        {{"presets", "shwo", "denim"},
         2,
         "'shwo' is not one of its commands: show, notation, check. Did you mean 'show'?"},
@@ -159,7 +160,7 @@ TEST_CASE("2: the command line is wrong, --set included") {
 TEST_CASE("2: an option that would do nothing, or outputs that would be one file") {
   const test::TemporaryFolder folder;
   test::write_file(folder / "own.json", preset_to_json({}));
-  check_calls({{{"run", "hanging", "--engine", "foo", "--steps", "1"}, 2, "opencl:N and auto"},
+  check_calls({{{"run", "hanging", "--engine", "foo", "--steps", "1"}, 2, "opencl:N, plain and auto"},
                {{"run", "denim", "--steps", "1", "--series-every", "5"}, 2, "--series F.csv"},
                {{"run", "denim", "--steps", "1", "--fps", "5"}, 2, "--obj, --pc2"},
                {{"run", "missing.json", "--engine", "auto", "--fps", "5"}, 2, "--obj, --pc2"},
@@ -332,6 +333,15 @@ TEST_CASE("6: a file that grows beyond the limit of the shell leaves nothing beh
   CHECK(outcome.code == 6);
   CHECK(outcome.err.find("s.csv: cannot be written") != std::string::npos);
   CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("6: a temporary file that cannot be written is named by its folder, with a way without it") {
+  const test::TemporaryFolder folder;
+  const std::string call = "ulimit -f 4; " + std::string(test::binary) + " run hanging --steps 1 --pc2 - | cat >&2";
+  const auto outcome = test::run(folder.path(), {"/bin/bash", "-o", "pipefail", "-c", call});
+  CHECK(outcome.code == 6);
+  CHECK(outcome.err.find("collected in a temporary file in /") != std::string::npos);
+  CHECK(outcome.err.find("name a file instead of -") != std::string::npos);
 }
 
 TEST_CASE("a file does not take the place of a closed standard output") {

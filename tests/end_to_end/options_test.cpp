@@ -41,7 +41,7 @@ TEST_CASE("experiments on the CPU engine alone refuse another, and say so where 
       check(folder, with({"one_weight", "--set", set}), 2, "--set engine=opencl: this command runs only on the CPU");
     CHECK(check(folder, with({"one_weight", "--engine", "cpu"}), 0, "").err.empty());
     CHECK(check(folder, with({"opencl.json", "--engine", "cpu"}), 0, "").err.empty());
-    const auto outcome = check(folder, with({"opencl.json"}), 0, "the preset asks for OpenCL");
+    const auto outcome = check(folder, with({"opencl.json"}), 0, "the preset asks for the engine opencl");
     CHECK(test::lines(outcome.err).size() == 1);
   }
   check(folder, {"bench", "convergence", "one_weight", "--precision", "float"}, 2, "in double");
@@ -51,8 +51,8 @@ TEST_CASE("--engine: all that is allowed is named") {
   const test::TemporaryFolder folder;
   for (const char* engine : {"auto:0", "cpu:0", "opencl:", "opencl:-1", "opencl:1x", "gpu"})
     check(folder, {"run", "one_weight", "--steps", "1", "--engine", engine}, 2,
-          "--engine " + std::string(engine) + ": allowed are cpu, opencl, opencl:N and auto");
-  check(folder, {"--engine", "auto:0"}, 2, "allowed are cpu, opencl, opencl:N and auto");
+          "--engine " + std::string(engine) + ": allowed are cpu, opencl, opencl:N, plain and auto");
+  check(folder, {"--engine", "auto:0"}, 2, "allowed are cpu, opencl, opencl:N, plain and auto");
 }
 
 TEST_CASE("an option of the window before a command: behind it, or left out where the command has none") {

@@ -152,6 +152,17 @@ TEST_CASE("- is standard output for every file, and gives the same bytes") {
   CHECK_FALSE(fs::exists(folder / "-"));
 }
 
+TEST_CASE("docs/presets.md shows the beginning of the state that its command writes") {
+  const std::string page = test::read_file(std::string(test::source_dir) + "/docs/presets.md");
+  const std::string command = "```\ntyglab run hanging --seconds 2 --state F.csv\n```";
+  REQUIRE(page.find(command) != std::string::npos);
+  const std::size_t begin = page.find("# tyglab state, ", page.find(command)), end = page.find("…", begin);
+  REQUIRE(end != std::string::npos);
+  const test::TemporaryFolder folder;
+  good(folder.path(), {"run", "hanging", "--seconds", "2", "--state", "F.csv"});
+  CHECK(test::read_file(folder.path() / "F.csv").starts_with(page.substr(begin, end - begin)));
+}
+
 TEST_CASE("run and presets check say in one line that the preset's picture is missing") {
   const test::TemporaryFolder folder;
   Preset preset;

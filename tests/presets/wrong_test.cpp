@@ -200,6 +200,8 @@ TEST_CASE("text that is not JSON is told in plain words, with its place and how 
            {"{\"name\": \"\\u12\"}", "four hexadecimal digits"},
            {"{\"name\": \"\xff\"}", "not UTF-8"},
            {"\xff\xfe{", "not UTF-8"},
+           {"\x89PNG\r\n\x1a\n", "this is an image, not a preset; the cloth takes it as its texture"},
+           {"\xff\xd8\xff\xe0", "this is an image, not a preset"},
            {"k_s = 5", "begins with {"},
            {"", "it is empty"},
            {"{\n\"cloth\": {\n\n", ":2: the { of line 2 is never closed; add its }"},

@@ -16,6 +16,7 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 
 import numpy as np
 import tyglab
@@ -228,6 +229,22 @@ class Simulations(unittest.TestCase):
             damped.step(2)
             self.assertEqual(damped.solves["linear_steps"], products)
             self.assertEqual(damped.solves["unconverged"], missed)
+
+    def test_a_precision_that_is_too_coarse_is_warned_of_in_the_words_of_the_command_line(self):
+        stiff = tyglab.Preset.load("hanging").but(rows=10, columns=9, k_b=0, k_s=1e7, dt=0.02, integrator="tr_bdf2")
+        with self.assertWarns(UserWarning) as said:
+            tyglab.Simulation(stiff)
+        self.assertEqual(said.filename, __file__)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "stiff.json")
+            stiff.save(file)
+            told = subprocess.run([PROGRAM, "run", file, "--steps", "1"], capture_output=True, text=True, check=True)
+        self.assertEqual(told.stderr.splitlines()[0], f"tyglab: {said.warning}")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            tyglab.Simulation(stiff.but(precision="double"))
+            with self.assertRaises(UserWarning):
+                tyglab.Simulation(stiff)
 
     def test_a_step_can_be_limited_in_time(self):
         # Stiffer in float, and a pass leaves no more than rounding does: then nothing is missing.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "app/base/glfw_keys.h"
+#include "app/session/lab_state.h"
 #include "app/ui/frame/frame.h"
 #include "core/analysis/convergence.h"
 #include "tests/support/sanitized.h"
@@ -163,6 +165,18 @@ TEST_CASE("where a method has no stable dt, automatic says so and stays off") {
   CHECK(window.preset().dt == 1e-5);
 }
 
+TEST_CASE("the level lines beside a mass on a spring say what they are, but not before a lab's prediction") {
+  test::NullUi window({.preset = "one_weight"});
+  window.frames(3);
+  CHECK(window.drew("x₀: y = 1 m"));
+  CHECK(window.drew("equilibrium"));
+  find_labs(window.session);
+  begin_lab(window.session, "01_hooke");
+  window.frames(6);
+  CHECK(window.drew("x₀: y = 1 m"));
+  CHECK_FALSE(window.drew("equilibrium"));
+}
+
 TEST_CASE("paused, the picked particle's next step is written out; → makes it, and it comes out as foretold") {
   test::NullUi window({.with = [](Preset& preset) { preset.precision = Precision::double_; }});
   window.until([&] { return window.steps() > 60; }, "the cloth to move");
@@ -184,6 +198,23 @@ TEST_CASE("paused, the picked particle's next step is written out; → makes it,
   CHECK(shown()->x_after != foretold);  // it is the next one
   window.click("plots.close_inside");
   CHECK(shown() == nullptr);
+}
+
+TEST_CASE("in a narrow column a step's vectors take two lines and a spring one, without a cut or broken number") {
+  for (const auto& [theme, height] : {std::pair{"dark", 720}, {"projector", 1080}}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window(
+        {.size = {1280, height}, .settings = [theme = theme](Settings& settings) { settings.theme = theme; }});
+    window.until([&] { return window.steps() > 60; }, "the cloth to move");
+    window.pause();
+    window.key(GLFW_KEY_I);
+    window.until([&] { return window.drew("spring to stretch, % force, "); }, "the step");
+    for (const char* text : {"x, m", "v, seen, ", "(16, 17)"}) CHECK(window.drew(text));
+    for (const std::string& text : window.cut_texts()) {
+      CAPTURE(text);
+      CHECK_FALSE(text.starts_with("plots"));
+    }
+  }
 }
 
 TEST_CASE("every evaluation of Runge-Kutta's step is told") {
@@ -406,10 +437,29 @@ TEST_CASE("a plot that was hidden for a while shows no old span as if it were th
   window.pause();
   window.key(GLFW_KEY_F5);
   window.frames(2);
-  CHECK(window.drew("Not recorded while the plot was hidden"));
+  CHECK(window.drew("No samples after t = "));
+  CHECK(window.cut_texts().empty());
   window.key(GLFW_KEY_SPACE);
   window.frames(4);
-  CHECK_FALSE(window.drew("Not recorded while the plot was hidden"));
+  CHECK_FALSE(window.drew("No samples after t = "));
+}
+
+TEST_CASE("once the pull before an explosion is undone and redone, the plot shows what it still has") {
+  test::NullUi window;
+  window.until([&] { return window.t() > 0.3; }, "some motion");
+  window.drag({window.pixel_of(16, 16), window.pixel_of(16, 20)}, GLFW_MOUSE_BUTTON_RIGHT);
+  const double pulled = window.t();
+  window.until([&] { return window.t() > pulled + 0.6; }, "more than an explosion takes");
+  window.type_value("k_s", "3000");
+  window.until([&] { return window.diverged(); }, "the divergence");
+  for (int n = 0; n < 2; ++n) window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  REQUIRE(window.t() < pulled + 0.1);
+  for (int n = 0; n < 2; ++n) window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  window.frames(2);
+  REQUIRE(window.diverged());
+  REQUIRE(window.t() > pulled + 0.6);
+  CHECK_FALSE(window.session.recorded.forces.empty());
+  CHECK_FALSE(window.drew("No samples after t = "));
 }
 
 TEST_CASE("what the Energy card shows moves no divergence") {

@@ -279,6 +279,11 @@ TEST_CASE("a preset that cannot be written stays unsaved, and the dialog says wh
   CHECK_FALSE(window.ui.dialog.problem.empty());
   CHECK(unsaved(window.session));
   CHECK(window.ui.dialog.kind == Kind::save);
+  window.until([&] { return window.typing(); }, "the file's field");
+  const std::string file = (window.config.path() / "nowhere.json").string();
+  window.type(file);
+  CHECK(std::string(window.ui.dialog.name) == "Nowhere");
+  CHECK(std::string(window.ui.dialog.path) == file);
 }
 
 TEST_CASE("quitting asks while changes are unsaved; Escape stays, Save saves first") {

@@ -51,6 +51,39 @@ TEST_CASE("a prediction that is refused keeps the keyboard, all of it selected, 
   CHECK_FALSE(window.typing());
 }
 
+TEST_CASE("a number typed while a lab's question waits is its answer, wherever the keys went, and letters do nothing") {
+  test::NullUi window;
+  begin(window, "03_stiffness");
+  const int view = window.preset().mode;
+  window.key(GLFW_KEY_M);
+  CHECK_FALSE(window.settings.layout.map);
+  CHECK(window.said("The lab waits for your prediction."));
+  CHECK_FALSE(window.typing());
+  window.type("4e1");
+  window.frames(6);
+  CHECK(window.typing());
+  CHECK(std::string(record(window).typed) == "4e1");
+  CHECK(window.preset().mode == view);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK(record(window).predicted);
+  window.key(GLFW_KEY_2);
+  CHECK(window.preset().mode == 2);
+  window.key(GLFW_KEY_M);
+  CHECK(window.settings.layout.map);
+
+  window.ui.side = Side::main;  // the lab's text is there again, in place of the map
+  enter_step(window.session, 1);
+  window.frames(4);
+  REQUIRE(window.sees("lab.choice.1"));
+  const int of_step = window.preset().mode;
+  window.key(GLFW_KEY_3);
+  CHECK(window.preset().mode == of_step);
+  CHECK(window.said("The lab waits for your prediction."));
+  window.key(GLFW_KEY_P, GLFW_MOD_CONTROL);  // only plain keys wait
+  CHECK(window.ui.palette.open);
+}
+
 TEST_CASE("Next says what it waits for: the prediction first, then the checks") {
   test::NullUi window;
   begin(window, "03_stiffness");

@@ -72,6 +72,8 @@ TEST_CASE("the lab on Hooke's law is played from its beginning to its end, and w
   CHECK(window.paused());
   CHECK(window.steps() == 0);  // the result is not seen before the prediction
   CHECK(window.said("Predict first: the motion waits for your prediction."));
+  CHECK(window.drew("Predict in the lab to run"));
+  CHECK_FALSE(window.drew("Space runs"));
   CHECK_FALSE(window.scene.view.equilibrium);  // nor the line where the mass comes to rest
   predict(window, "0,09");
   window.frames(2);

@@ -457,6 +457,44 @@ TEST_CASE("the status line says how to grab and cut, whatever there is to tell o
   }
 }
 
+TEST_CASE("where rounding keeps forces from balancing, the status line says so with the cure") {
+  test::NullUi window({.preset = "sphere", .with = [](Preset& preset) {
+                         preset.k_s = 1e4, preset.k_b = 0, preset.dt = 0.01, preset.integrator = "implicit_midpoint";
+                       }});
+  window.until([&] { return window.steps() >= 3; }, "three steps");
+  window.pause();
+  window.frames(3);
+  CHECK(window.drew("steps unbalanced by rounding to float: use double"));
+  CHECK_FALSE(window.drew("stopped early"));
+}
+
+TEST_CASE("on a projector the column of constants shows its texts whole, and the picked particle below them") {
+  for (const glm::ivec2 size : {glm::ivec2{1280, 720}, {1366, 768}, {1920, 1080}})
+    for (const char* theme : {"light", "projector"}) {
+      CAPTURE(size.x);
+      CAPTURE(std::string(theme));
+      test::NullUi window(options("hanging", 1, theme, size));
+      window.pause();
+      window.frames(4);
+      CHECK(whole(window, "constants.F_int", 10));
+      CHECK(whole(window, "plots.force_plot", 100));
+      const Box list = window.control("constants.k_s.slider");
+      window.move({(list.lo.x + list.hi.x) / 2, list.hi.y});
+      for (int n = 0; n < 20; ++n) {
+        for (const std::string& text : window.cut_texts()) {
+          CAPTURE(text);
+          CHECK_FALSE(text.starts_with("constants"));
+        }
+        if (window.sees("constants.columns.slider")) {
+          const float label = text_width(*window.ui.fonts.small, "columns");
+          CHECK(window.control("constants.columns.slider").lo.x > window.ui.theme.px(16) + label + 4);
+        }
+        window.wheel(-1.5f);
+      }
+      CHECK(window.sees("constants.wind_arrow"));
+    }
+}
+
 TEST_CASE("in a small window with large text presentation mode keeps the step and its gauge") {
   test::NullUi window(options("one_weight", 1.5, "light", {900, 600}));
   window.key(GLFW_KEY_F5);

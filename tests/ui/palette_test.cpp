@@ -157,6 +157,11 @@ TEST_CASE("help has its buttons in sight in a small window, and its last line is
 TEST_CASE("the tour is walked through, skipped and seen again, and that it was seen is remembered") {
   test::NullUi window({.settings = [](Settings& settings) { settings.tour_seen = false; }});
   start_tour(window.ui);
+  window.frames(2);
+  CHECK_FALSE(window.drew("The motion is paused: Space runs it."));
+  window.pause();
+  window.frames(2);
+  CHECK(window.drew("The motion is paused: Space runs it."));
   for (int card = 0; card < 5; ++card) {
     window.frames(4);
     CHECK(window.ui.tour.card == card);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/base/glfw_keys.h"
+#include "app/session/lab_state.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::presentation_test {
@@ -88,6 +89,32 @@ TEST_CASE("an audience reads the axes, every arrow has its symbol, and the cloth
     window.key(GLFW_KEY_F5);
     window.frames(3);
     CHECK(window.ui.fonts.axis == window.ui.fonts.small);
+  }
+}
+
+TEST_CASE("an audience reads every text, and the cloth keeps its width beside a card and beside a lab") {
+  for (const glm::ivec2 size : {glm::ivec2(1920, 1080), glm::ivec2(2560, 1440), glm::ivec2(1280, 720)}) {
+    CAPTURE(size.x);
+    test::NullUi window({.size = size});
+    window.pause();
+    window.key(GLFW_KEY_F5);
+    window.frames(6);
+    CHECK(window.ui.fonts.small->FontSize >= 0.02f * float(size.y));
+    CHECK(window.ui.viewport.size().x >= 0.65f * float(size.x));
+    check_whole(window);
+    find_labs(window.session);
+    begin_lab(window.session, "01_hooke");
+    window.frames(6);
+    CHECK(window.sees("lab.prediction"));
+    CHECK(window.ui.viewport.size().x >= 0.65f * float(size.x));
+    for (const std::string& text : window.cut_texts()) {
+      CAPTURE(text);
+      CHECK_FALSE(text.starts_with("lab"));
+      CHECK_FALSE(text.starts_with("podium"));
+    }
+    window.key(GLFW_KEY_F5);
+    window.frames(3);
+    CHECK(window.ui.theme.scale == 1);
   }
 }
 

@@ -37,7 +37,12 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (is_standard_output(options.session_report))
     throw UsageError("--session-report -: the report is rewritten continuously; name a file");
   const PictureSize size = options.size.empty() ? PictureSize{0, 0} : parse_size(options.size, smallest_window);
-  if (!options.lab.empty()) load_lab(find_lab_file(options.lab));
+  if (!options.lab.empty()) {
+    const int steps = int(load_lab(find_lab_file(options.lab)).steps.size());
+    if (options.lab_step > steps)
+      throw UsageError("--lab-step: " + std::to_string(options.lab_step) + " is not allowed; allowed: 1 to " +
+                       std::to_string(steps));
+  }
   if (options.lab.empty() && options.lab_step > 0)
     throw UsageError("--lab-step: name the lab, as in --lab 03_stiffness");
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);

@@ -127,7 +127,7 @@ Wants plots_want(const Ui& ui, ImVec2 size, bool take_turns);
 
 /// A frame of the newest of a series: the time that the wheel has set, or else as little as holds it, up to ten
 /// seconds.
-PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string_view when_empty);
+PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string when_empty);
 /// What is said in place of curves where nothing has moved yet.
 const char* why_empty(const Ui& ui);
 /// Takes a turn of the wheel (draw_plot) for all plots over time.

@@ -92,9 +92,9 @@ void head(Ui& ui) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const Columns at = columns_of(ui);
   if (costs_shown(ui))
-    column_head(ui, "cost", {lo.x + at.cost - ui.theme.px(cost_at_1), lo.y}, lo.x + at.cost, "CPU, s/s",
-                "CPU seconds per simulated second, on the thread that makes the steps. Time of other programs does not "
-                "count, except with OpenCL.");
+    column_head(ui, "cost", {lo.x + at.cost - ui.theme.px(cost_at_1), lo.y}, lo.x + at.cost, "CPU time",
+                "CPU seconds per simulated second (s/s), on the thread that makes the steps. Time of other programs "
+                "does not count, except with OpenCL.");
   column_head(
       ui, "distance", {lo.x + at.apart - ui.theme.px(apart_at_1), lo.y}, lo.x + at.apart, "distance, m",
       "Root mean square (rms) of the distances between the particles of this cloth and those of the reference.");

@@ -14,15 +14,24 @@ namespace tyglab {
 namespace {
 
 // Pixels at scale 1.
-constexpr float force_controls_at_1 = 34, force_controls_row_at_1 = 30, force_gap_at_1 = 4, force_button_at_1 = 22;
-constexpr float force_legend_line_at_1 = 22, force_sample_at_1 = 22, force_over_legend_at_1 = 6,
-                force_least_plot_at_1 = 78;
+constexpr float force_controls_at_1 = 34, force_controls_row_at_1 = 30;
+constexpr float force_roomy_at_1 = 11, force_narrow_at_1 = 6, force_log_gap_at_1 = 8;  // beside and between the choices
+constexpr float force_legend_line_at_1 = 22, force_over_legend_at_1 = 6;
+constexpr float force_least_wide_at_1 = 78, force_least_narrow_at_1 = 130;  // of the plot: a narrow one is to be tall
+constexpr int force_buttons = 2;
+
+/// Of a name in the legend: its sample, and what parts it from that and from the next one.
+struct LegendEntrySize {
+  float sample, gap, between;
+};
+constexpr LegendEntrySize roomy_entry{22, 6, 14}, narrow_entry{14, 4, 10};
 
 constexpr std::array<const char*, 3> force_sources{"Particle", "Sum", "Max"};
 constexpr std::array<const char*, 1> force_scales{"log"};
 
 /// Where the names of the curves stand, px from the legend's corner.
 struct LegendPlaces {
+  LegendEntrySize entry;
   struct Name {
     std::string_view key;
     ImVec2 at;
@@ -32,25 +41,31 @@ struct LegendPlaces {
   float height;
 };
 
-LegendPlaces legend_places(const Ui& ui, float whole) {
-  LegendPlaces places;
-  const float line = ui.theme.px(force_legend_line_at_1), gap = ui.theme.px(14);
+LegendPlaces legend_of(const Ui& ui, float whole, const LegendEntrySize& entry) {
+  LegendPlaces places{.entry = entry, .names = {}, .height = 0};
+  const float line = ui.theme.px(force_legend_line_at_1);
   ImVec2 at{0, 0};
   for (const std::string_view key : shown_force_keys(ui.session.preset())) {
-    const float width = ui.theme.px(force_sample_at_1) + ui.theme.px(6) + symbol_width(ui.fonts, key);
+    const float width = ui.theme.px(entry.sample) + ui.theme.px(entry.gap) + symbol_width(ui.fonts, key);
     if (at.x > 0 && at.x + width > whole) at = {0, at.y + line};
     places.names.push_back({key, at, width});
-    at.x += width + gap;
+    at.x += width + ui.theme.px(entry.between);
   }
   places.height = at.y + line;
   return places;
+}
+
+/// Where that saves a line, its entries are narrow.
+LegendPlaces legend_places(const Ui& ui, float whole) {
+  const LegendPlaces roomy = legend_of(ui, whole, roomy_entry), narrow = legend_of(ui, whole, narrow_entry);
+  return narrow.height < roomy.height ? narrow : roomy;
 }
 
 /// Clickable names of the curves.
 void legend(Ui& ui, ImVec2 corner, const LegendPlaces& places) {
   Plots& plots = ui.plots;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float line = ui.theme.px(force_legend_line_at_1), sample = ui.theme.px(force_sample_at_1);
+  const float line = ui.theme.px(force_legend_line_at_1), sample = ui.theme.px(places.entry.sample);
   for (const auto& [key, at, width] : places.names) {
     const ImVec2 lo{corner.x + at.x, corner.y + at.y};
     ImGui::SetCursorScreenPos(lo);
@@ -60,7 +75,7 @@ void legend(Ui& ui, ImVec2 corner, const LegendPlaces& places) {
     report_control(ui, "curve." + std::string(key));
     const LegendInk ink =
         legend_ink(ui.theme.colors, curve_style(ui.theme.colors, key), hidden, ImGui::IsItemHovered());
-    const float middle = std::round(lo.y + line / 2), left = lo.x + sample + ui.theme.px(6);
+    const float middle = std::round(lo.y + line / 2), left = lo.x + sample + ui.theme.px(places.entry.gap);
     const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
     draw_styled_line(draw, ends, 2, ink.sample, ui.theme.scale);
     draw_symbol(draw, ui.fonts, {left, baseline_at(ui.fonts, middle)}, key, ink.name);
@@ -71,55 +86,59 @@ void legend(Ui& ui, ImVec2 corner, const LegendPlaces& places) {
   }
 }
 
-/// What stands at the right over the plot: the scale, hold and CSV.
-float right_controls_width(const Ui& ui) {
-  return segments_size(ui, force_scales.data(), 1).x + 2 * ui.theme.px(force_button_at_1) +
-         2 * ui.theme.px(force_gap_at_1);
-}
+/// What stands over the plot: the source of the forces at the left, the scale at the right, or below where it has no
+/// room.
+struct ControlsPlan {
+  float padding;  ///< at scale 1
+  float scale;    ///< px, of the scale's control
+  bool wraps;
+};
 
-/// Whether that has no room beside the force_sources, so that it takes another row.
-bool force_controls_wrap(const Ui& ui, float width) {
-  const float left = ui.session.preset().kind == Kind::one_weight ? 0 : segments_size(ui, force_sources.data(), 3).x;
-  return left + ui.theme.px(8) + right_controls_width(ui) > width;
+ControlsPlan plan_controls(const Ui& ui, float width) {
+  ControlsPlan plan{};
+  for (const float padding : {force_roomy_at_1, force_narrow_at_1}) {
+    const bool weight = ui.session.preset().kind == Kind::one_weight;
+    const float sources = weight ? 0 : segments_size(ui, force_sources.data(), 3, padding).x;
+    plan = {padding, segments_size(ui, force_scales.data(), 1, padding).x, false};
+    if (sources + ui.theme.px(force_log_gap_at_1) + plan.scale <= width) return plan;
+  }
+  plan.wraps = true;
+  return plan;
 }
 
 /// Height of all that stands over the plot, px.
 float controls_height(const Ui& ui, float width) {
-  return ui.theme.px(force_controls_at_1) + (force_controls_wrap(ui, width) ? ui.theme.px(force_controls_row_at_1) : 0);
+  return ui.theme.px(force_controls_at_1) + (plan_controls(ui, width).wraps ? ui.theme.px(force_controls_row_at_1) : 0);
 }
 
-void source_control(Ui& ui) {
+void source_control(Ui& ui, float padding) {
   if (ui.session.preset().kind == Kind::one_weight) return;
   Recorded& recorded = ui.session.recorded;
-  const int k = segments(ui, "source", force_sources.data(), 3, int(recorded.chosen));
+  const int k = segments(ui, "source", force_sources.data(), 3, int(recorded.chosen), padding);
   if (k < 0 || k == int(recorded.chosen)) return;
   recorded.chosen = Source(k);
   recorded.forces.clear();
 }
 
-void right_controls(Ui& ui, ImVec2 at) {
-  Plots& plots = ui.plots;
-  const float gap = ui.theme.px(force_gap_at_1), y = at.y + ui.theme.px(2);
-  ImGui::SetCursorScreenPos(at);
-  if (segments(ui, "scale", force_scales.data(), 1, plots.log ? 0 : -1) == 0) plots.log = !plots.log;
-  tooltip(ui, gui::item_id(), plots.log ? "Linear axis" : "Logarithmic axis");
-  ImGui::SetCursorScreenPos({ImGui::GetItemRectMax().x + gap, y});
-  if (quiet_button(ui, "pause", ui.session.recorded.paused ? icon::play : icon::pause,
-                   ui.session.recorded.paused ? "run" : "hold",
-                   ui.session.recorded.paused ? "Resume the plot" : "Pause the plot; the simulation continues"))
-    ui.session.recorded.paused = !ui.session.recorded.paused;
-  ImGui::SetCursorScreenPos({ImGui::GetItemRectMax().x + gap, y});
-  if (quiet_button(ui, "csv", icon::download, "CSV", "Export the plot as CSV…")) ui.command("export_forces");
-}
-
 void force_controls(Ui& ui, const Region& inner) {
-  source_control(ui);
-  const bool wraps = force_controls_wrap(ui, inner.size.x);
-  right_controls(ui, wraps ? ImVec2(inner.at.x, inner.at.y + ui.theme.px(force_controls_row_at_1))
-                           : ImVec2(inner.at.x + inner.size.x - right_controls_width(ui), inner.at.y));
+  const ControlsPlan plan = plan_controls(ui, inner.size.x);
+  source_control(ui, plan.padding);
+  ImGui::SetCursorScreenPos(plan.wraps ? ImVec2(inner.at.x, inner.at.y + ui.theme.px(force_controls_row_at_1))
+                                       : ImVec2(inner.at.x + inner.size.x - plan.scale, inner.at.y));
+  Plots& plots = ui.plots;
+  if (segments(ui, "scale", force_scales.data(), 1, plots.log ? 0 : -1, plan.padding) == 0) plots.log = !plots.log;
+  tooltip(ui, gui::item_id(), plots.log ? "Linear axis" : "Logarithmic axis");
 }
 
-/// The longest that the width has room for beside the unit.
+void head_buttons(Ui& ui, const PlotCard& card) {
+  bool& paused = ui.session.recorded.paused;
+  if (card.head_button(ui, 0, "csv", icon::download, "CSV", "Export the plot as CSV…")) ui.command("export_forces");
+  if (card.head_button(ui, 1, "pause", paused ? icon::play : icon::pause, paused ? "run" : "hold",
+                       paused ? "Resume the plot" : "Pause the plot; the simulation continues"))
+    paused = !paused;
+}
+
+/// The longest that the width has room for.
 std::string force_title(const Ui& ui, float width) {
   const bool weight = ui.session.preset().kind == Kind::one_weight;
   const Source source = force_source(ui.session);
@@ -127,28 +146,30 @@ std::string force_title(const Ui& ui, float width) {
                               : source == Source::sum     ? "the cloth, summed"
                               : source == Source::maximum ? "the cloth, largest"
                                                           : "the picked particle";
-  const float unit = ui.theme.px(48);
   for (const std::string& title : {"Forces on " + subject, weight ? "Forces" : "On " + subject})
-    if (text_width(*ui.fonts.title, title) + unit <= width) return title;
+    if (text_width(*ui.fonts.title, title) <= width) return title;
   return "Forces";
 }
 
 }  // namespace
 
 float force_card_least(const Ui& ui, float width) {
-  const float inner = plot_card_inner_width(ui, width);
-  return plot_card_height(ui, controls_height(ui, inner) + ui.theme.px(force_least_plot_at_1 + force_over_legend_at_1) +
-                                  legend_places(ui, inner).height);
+  const float inner = plot_card_inner_width(ui, width), legend = legend_places(ui, inner).height;
+  const bool narrow = legend > ui.theme.px(force_legend_line_at_1);
+  const float plot = ui.theme.px(narrow ? force_least_narrow_at_1 : force_least_wide_at_1);
+  return plot_card_height(ui, controls_height(ui, inner) + plot + ui.theme.px(force_over_legend_at_1) + legend);
 }
 
 void force_card(Ui& ui, float height) {
   Plots& plots = ui.plots;
-  const PlotCard card(ui, "forces", force_title(ui, plot_card_inner_width(ui, ImGui::GetContentRegionAvail().x)),
+  const PlotCard card(ui, "forces",
+                      force_title(ui, plot_card_title_width(ui, ImGui::GetContentRegionAvail().x, force_buttons)),
                       ui.session.recorded.paused ? "held"
                       : plots.log                ? "log"
                                                  : "",
-                      height);
+                      height, force_buttons);
   const Region& inner = card.inner();
+  head_buttons(ui, card);
   force_controls(ui, inner);
   std::vector<PlotCurve> curves;
   const std::vector<std::string_view> shown = shown_force_keys(ui.session.preset());

@@ -1,5 +1,6 @@
 #include "app/ui/cards/cards.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -11,11 +12,14 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
 
-constexpr float text_line_at_1 = 18, name_at_1 = 64;  // pixels at scale 1
+// Pixels at scale 1.
+constexpr float text_line_at_1 = 18, name_at_1 = 64, force_unit_at_1 = 52;
+constexpr float spring_force_end_at_1 = 230, spring_force_at_1 = 62;  // where that column ends, and its width
 
 std::string site(int i, int j) {
   return "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
@@ -78,6 +82,47 @@ void words(Ui& ui, const std::string& text, ImU32 color) {
   ImGui::PopFont();
 }
 
+/// What three numbers share, so that each has few digits: their unit, or a power of ten where they have none.
+ScaledUnit shared_by(const glm::dvec3& value, std::string_view unit) {
+  const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+  if (!unit.empty()) return scaled_unit(largest, unit);
+  const int power = largest > 0 ? 3 * int(std::floor(std::log10(largest) / 3)) : 0;
+  if (power == 0) return {1, ""};
+  const std::string factor = with_power("1e" + std::to_string(power));
+  return {std::pow(10, power), factor.substr(factor.find("10"))};
+}
+
+/// Three numbers in columns, to the right of `indent`, px.
+void number_columns(Ui& ui, float indent, const glm::dvec3& value, ImU32 color) {
+  const ImFont& mono = *ui.fonts.mono;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float height = ui.theme.px(text_line_at_1), whole = ImGui::GetContentRegionAvail().x;
+  const float column = std::floor((whole - indent) / 3),
+              baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
+  for (int k = 0; k < 3; ++k) {
+    const std::string text = table_number(value[k]);
+    const float x = lo.x + indent + float(k + 1) * column - text_width(mono, text);
+    draw_on_baseline(*ImGui::GetWindowDrawList(), mono, {x, baseline}, color, text);
+  }
+  ImGui::Dummy({whole, height});
+}
+
+/// Whether a vector with its unit has room beside a name.
+bool fits_beside(const Ui& ui, const glm::dvec3& value, std::string_view unit) {
+  const std::string text = steady_vector(value) + " " + std::string(unit);
+  return text_width(*ui.fonts.mono, text) <= ImGui::GetContentRegionAvail().x - ui.theme.px(name_at_1);
+}
+
+/// In a narrow card the unit stands with the name, and the numbers in columns below.
+void vector_line(Ui& ui, const std::string& name, const glm::dvec3& value, std::string_view unit, ImU32 color) {
+  const std::string after = unit.empty() ? "" : " " + std::string(unit);
+  if (fits_beside(ui, value, unit)) return line(ui, name, steady_vector(value) + after, color);
+  const ScaledUnit shared = shared_by(value, unit);
+  const char* const before = unit.empty() ? " " : ", ";
+  line(ui, shared.name.empty() ? name : name + before + shared.name, "", color);
+  number_columns(ui, 0, value / shared.size, color);
+}
+
 /// A symbol of table B.1 with its color, and its value.
 void force_line(Ui& ui, std::string_view key, const glm::dvec3& value) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -87,21 +132,46 @@ void force_line(Ui& ui, std::string_view key, const glm::dvec3& value) {
   draw_styled_line(draw, ends, 2, curve_style(ui.theme.colors, key), ui.theme.scale);
   draw_symbol(draw, ui.fonts, {lo.x + sample + ui.theme.px(6), baseline_at(ui.fonts, middle)}, key,
               ui.theme.colors.text);
-  value_text(ui, lo, steady_vector(value) + " N", ui.theme.colors.text);
+  if (fits_beside(ui, value, "N")) return value_text(ui, lo, steady_vector(value) + " N", ui.theme.colors.text);
+  const ScaledUnit shared = shared_by(value, "N");
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(force_unit_at_1), baseline_at(ui.fonts, middle)},
+                   ui.theme.colors.quiet, shared.name);
+  ImGui::Dummy({0, height});
+  number_columns(ui, 0, value / shared.size, ui.theme.colors.text);
+}
+
+/// A row of the springs' table: texts that end at its columns, after one at the left.
+void spring_row(Ui& ui, const ImFont& font, const std::string& left, const std::string& middle,
+                const std::string& right, ImU32 color) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float whole = ImGui::GetContentRegionAvail().x, height = ui.theme.px(text_line_at_1),
+              baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2)),
+              end = std::min(whole, ui.theme.px(spring_force_end_at_1)), before = end - ui.theme.px(spring_force_at_1);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, ui.theme.colors.quiet, left);
+  draw_on_baseline(draw, font, {lo.x + before - text_width(font, middle), baseline}, color, middle);
+  draw_on_baseline(draw, font, {lo.x + end - text_width(font, right), baseline}, color, right);
+  ImGui::Dummy({whole, height});
 }
 
 /// Every spring: where to, how far it is stretched, what it does.
 void springs(Ui& ui, const TracedStage& stage) {
   const Tokens& c = ui.theme.colors;
+  const auto is_spring = [](const StencilForce& one) { return one.force->conserves; };
+  double strongest = 0;
+  for (const StencilForce& one : stage.stencils)
+    if (is_spring(one)) strongest = std::max(strongest, glm::length(one.F));
+  if (std::none_of(stage.stencils.begin(), stage.stencils.end(), is_spring)) return;
+  const ScaledUnit newtons = scaled_unit(strongest, "N");
+  spring_row(ui, *ui.fonts.small, "spring to", "stretch, %", "force, " + newtons.name, c.quiet);
   for (const StencilForce& spring : stage.stencils) {
-    if (!spring.force->conserves) continue;
-    std::array<char, 120> text;
-    const double percent = 100 * (spring.length / spring.rest - 1);
-    std::snprintf(text.data(), text.size(), "%+6.2f %%  %s N", std::abs(percent) < 0.005 ? 0 : percent,
-                  steady_number(glm::length(spring.F)).c_str());
-    const bool acts = glm::length(spring.F) > 0;
-    const ImU32 color = acts ? curve_style(c, spring.force->symbol).color : c.quiet;
-    line(ui, "to " + site(spring.other_i, spring.other_j), text.data(), color);
+    if (!is_spring(spring)) continue;
+    std::array<char, 40> stretch;
+    const double percent = 100 * (spring.length / spring.rest - 1), size = glm::length(spring.F);
+    std::snprintf(stretch.data(), stretch.size(), "%+.2f", std::abs(percent) < 0.005 ? 0 : percent);
+    const ImU32 color = size > 0 ? curve_style(c, spring.force->symbol).color : c.quiet;
+    spring_row(ui, *ui.fonts.mono, site(spring.other_i, spring.other_j), stretch.data(),
+               table_number(size / newtons.size), color);
   }
 }
 
@@ -109,9 +179,9 @@ void force_lines(Ui& ui, const TracedStage& stage) {
   const Preset& preset = ui.session.preset();
   const auto on = by_key(stage.forces);
   for (const std::string_view key : shown_force_keys(preset))
-    if (!key.starts_with("F_int") && key != "F_ext" && key != "F") force_line(ui, key, on[key]);
+    if (key != "F_int" && key != "F_ext" && key != "F") force_line(ui, key, on[key]);
   force_line(ui, "F", on["F"]);
-  line(ui, "a = F/m", steady_vector(stage.a) + " m/s²", ui.theme.colors.text);
+  vector_line(ui, "a = F/m", stage.a, "m/s²", ui.theme.colors.text);
   words(ui, "with m = " + short_number(preset.m) + " kg", ui.theme.colors.quiet);
 }
 
@@ -122,9 +192,9 @@ void assignment(Ui& ui, const Scheme& method, const TracedAssignment& what) {
   line(ui, target + " ←", formula_of(method, what), c.accent);
   for (const TracedTerm& term : what.terms) {
     const std::string scale = scale_text(term);
-    line(ui, scale.empty() ? "" : scale + " ·", steady_vector(term.value), c.quiet);
+    vector_line(ui, scale.empty() ? "" : scale + " ·", term.value, "", c.quiet);
   }
-  line(ui, "=", steady_vector(what.result), c.text);
+  vector_line(ui, "=", what.result, "", c.text);
 }
 
 void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
@@ -137,8 +207,8 @@ void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
                                   : "Forces",
           c.text);
   ImGui::PopFont();
-  line(ui, "x", steady_vector(stage.x) + " m", c.text);
-  line(ui, method.lag != 0 ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
+  vector_line(ui, "x", stage.x, "m", c.text);
+  vector_line(ui, method.lag != 0 ? "v, seen" : "v", stage.v, "m/s", c.text);
   if (method.lag != 0) words(ui, "the velocity that damping uses: between two steps, or predicted", c.quiet);
   springs(ui, stage);
   force_lines(ui, stage);
@@ -155,7 +225,7 @@ void result(Ui& ui, const StepTrace& trace) {
         "This method solves equations, projects, or chooses its own steps, so its step is not a sum of these numbers. "
         "Its result:",
         c.quiet);
-  line(ui, "x, new", steady_vector(trace.x_after) + " m", c.text);
+  vector_line(ui, "x, new", trace.x_after, "m", c.text);
   if (trace.whole)
     words(ui,
           "Computed in double from the method's coefficients. The engine rounds each sum to the chosen precision, "

@@ -213,7 +213,7 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
       facts.push_back({"products per step", linear});
     else
       facts.push_back({"Newton, CG per step", text("%.1f, ", double(solves.newton) / steps) + linear});
-    facts.push_back({"steps stopped early", std::to_string(solves.unconverged)});
+    facts.push_back({"steps not converged", std::to_string(solves.unconverged)});
     if (solves.ended_early > 0) {
       facts.push_back({"ended by the time limit", std::to_string(solves.ended_early)});
       facts.push_back({"longest limited step", text("%.3g ms", 1000 * solves.longest_limited)});

@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
+
+#include "app/base/text.h"
 
 namespace tyglab {
 
 namespace {
 
-/// s; once nothing moves after a divergence, the time in which it happened, so that its growth is seen.
-double blow_up_span(const Ui& ui, double length) {
+/// s; once nothing moves after a divergence, the time in which it happened, so that its growth is seen. `unseen`: how
+/// long ago the last sample is; after an undo and a redo of the divergence its growth may have none.
+double blow_up_span(const Ui& ui, double length, double unseen) {
   constexpr double steps = 250, least = 0.25;  // that growth takes; s
   const Session& session = ui.session;
-  if (!session.simulation->divergence() || session.copies.lockstep.alive())
-    return std::numeric_limits<double>::infinity();
-  return std::min(length, std::max(steps * session.preset().dt, least));
+  const double span = std::min(length, std::max(steps * session.preset().dt, least));
+  const bool stands = session.simulation->divergence() && !session.copies.lockstep.alive();
+  return stands && unseen < span ? span : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -43,22 +47,24 @@ std::pair<double, double> shown_time(const Ui& ui, const Series& series) {
                                                   : std::max(t, series.t().back());
   const double length = series.empty() ? 0 : now - series.t().front();
   const double usual = length <= 2 ? 2 : length <= 5 ? 5 : 10;
-  const double window = window_s.value_or(length > 0 ? std::min(usual, blow_up_span(ui, length)) : usual);
+  const double window =
+      window_s.value_or(length > 0 ? std::min(usual, blow_up_span(ui, length, now - series.t().back())) : usual);
   const double end = std::max(now, window);
   return {end - window, end};
 }
 
 }  // namespace
 
-PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
+PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string when_empty) {
   const auto [begin, end] = shown_time(ui, series);
-  if (!series.empty() && series.t().back() < begin) when_empty = "Not recorded while the plot was hidden";
+  if (!series.empty() && series.t().back() < begin)
+    when_empty = "No samples after t = " + short_number(series.t().back(), 3) + " s";
   return {.x_min = begin,
           .x_max = end,
           .log = log,
           .from_zero = true,
           .unit = unit,
-          .when_empty = when_empty,
+          .when_empty = std::move(when_empty),
           .time_step = ui.session.preset().dt};
 }
 

@@ -69,23 +69,32 @@ std::vector<std::string> shipped_textures() {
   return names;
 }
 
+/// A second check beside the first one, or under it where it has no room in a row of that width, px.
+void next_check(const Ui& ui, const char* first, const char* second, float width) {
+  const float gap = ui.theme.px(16), left = ImGui::GetItemRectMin().x, bottom = ImGui::GetItemRectMax().y;
+  if (check_width(ui, first) + gap + check_width(ui, second) <= width)
+    ImGui::SameLine(0, gap);
+  else
+    ImGui::SetCursorScreenPos({left, bottom + ui.theme.px(2)});
+}
+
 /// How the pointer's tools work.
 void tool_rows(Ui& ui) {
   const ToolSettings& handling = ui.settings.handling;
-  labeled_row(ui, "cut", [&](float) {
+  labeled_row(ui, "cut", [&](float width) {
     static constexpr const char* ways[] = {"upward", "along the path"};
     const int now = handling.cut_along_path ? 1 : 0;
-    if (const int k = segments(ui, "cut", ways, 2, now); k >= 0 && k != now) ui.command("toggle_cut_path");
+    if (const int k = segments(ui, "cut", ways, 2, now, 11, width); k >= 0 && k != now) ui.command("toggle_cut_path");
     tooltip(ui, gui::item_id(),
             "Choose what a left drag cuts: the springs above each particle near its path, or every spring and triangle "
             "edge that it crosses, through all layers.",
             ui.keys_of("toggle_cut_path"));
   });
-  labeled_row(ui, "hand", [&](float) {
+  labeled_row(ui, "hand", [&](float width) {
     if (check(ui, "slow motion", handling.slow_hand)) ui.command("toggle_slow_hand");
     tooltip(ui, gui::item_id(), "Runs at a quarter of the speed while you grab or cut.",
             ui.keys_of("toggle_slow_hand"));
-    ImGui::SameLine(0, ui.theme.px(16));
+    next_check(ui, "slow motion", "wind arrow", width);
     if (check(ui, "wind arrow", wind_arrow_shown(ui.tools))) ui.command("toggle_wind_arrow");
     tooltip(ui, gui::item_id(), "Shows the wind W as an arrow in the scene: drag its tip.",
             ui.keys_of("toggle_wind_arrow"));
@@ -148,14 +157,14 @@ void view_section(Ui& ui) {
   if (!section(ui, "View")) return;
   const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
   if (cloth) texture_row(ui);
-  labeled_row(ui, "show", [&](float) {
+  labeled_row(ui, "show", [&](float width) {
     if (!cloth) {
       if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
       return;
     }
     if (check(ui, "arrows", ui.arrows)) ui.arrows = !ui.arrows;
     tooltip(ui, gui::item_id(), "For the variables checked under “Picked particle”, in the colors of their curves.");
-    ImGui::SameLine(0, ui.theme.px(16));
+    next_check(ui, "arrows", "shadows", width);
     if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
   });
   labeled_row(ui, "effects", [&](float) {

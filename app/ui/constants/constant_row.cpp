@@ -200,6 +200,16 @@ void row_menu(Ui& ui, const Line& line, ImVec2 lo, ImVec2 hi) {
   end_menu();
 }
 
+/// Numbers of the lattice are known by their words; as symbols they would be taken for physical quantities.
+bool known_by_words(std::string_view key) {
+  return key == "rows" || key == "columns";
+}
+
+/// What a row's label takes, px: one that is longer than the column of symbols pushes its control to the right.
+float label_room(const Ui& ui, std::string_view label) {
+  return std::max(row_columns(ui).symbol, std::ceil(text_width(*ui.fonts.small, label)) + ui.theme.px(8));
+}
+
 /// The symbol; a double click on it resets, and a dot before it says that the value differs from the preset's.
 void symbol_cell(Ui& ui, const Line& line, const RowColumns& columns) {
   const Tokens& c = ui.theme.colors;
@@ -211,9 +221,8 @@ void symbol_cell(Ui& ui, const Line& line, const RowColumns& columns) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float middle = lo.y + columns.height / 2;
   if (changed) draw.AddCircleFilled({lo.x - ui.theme.px(7), std::round(middle)}, ui.theme.px(2.5f), c.warning, 12);
-  const ImVec2 at{lo.x, baseline_at(ui.fonts, middle)};
-  // Numbers of the lattice are known by their words; as symbols they would be taken for physical quantities.
-  if (line.key == "rows" || line.key == "columns")
+  const ImVec2 at{lo.x + ui.theme.px(1), baseline_at(ui.fonts, middle)};  // italic letters begin left of their place
+  if (known_by_words(line.key))
     draw_on_baseline(draw, *ui.fonts.small, at, c.text, line.key);
   else
     draw_symbol(draw, ui.fonts, at, line.symbol, c.text);
@@ -251,7 +260,8 @@ void vector_cells(Ui& ui, const Line& line, const RowColumns& columns, float sli
 }
 
 void draw_line(Ui& ui, const Line& line) {
-  const RowColumns columns = row_columns(ui);
+  RowColumns columns = row_columns(ui);
+  if (known_by_words(line.key)) columns.symbol = label_room(ui, "columns");  // both, so that their sliders line up
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = ui.row_width;
   const float slider_width = width - columns.symbol - columns.value - columns.unit - 2 * columns.gap;
@@ -292,7 +302,7 @@ void draw_line(Ui& ui, const Line& line) {
 RowColumns row_columns(const Ui& ui) {
   constexpr float narrow_at_1 = 240;  // rows under which the sliders are to keep most of the width
   if (ui.row_width < ui.theme.px(narrow_at_1))
-    return {ui.theme.px(26), ui.theme.px(34), ui.theme.px(56), ui.theme.px(36), ui.theme.px(4)};
+    return {ui.theme.px(26), ui.theme.px(40), ui.theme.px(56), ui.theme.px(36), ui.theme.px(4)};
   return {ui.theme.px(26), ui.theme.px(56), ui.theme.px(64), ui.theme.px(44), ui.theme.px(4)};
 }
 
@@ -336,13 +346,12 @@ void body_row(Ui& ui, const BodyRow& row, int index) {
 }
 
 void labeled_row(Ui& ui, const char* label, const std::function<void(float)>& content) {
-  const RowColumns columns = row_columns(ui);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = ui.row_width;
+  const float width = ui.row_width, before = label_room(ui, label);
   draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small, {lo.x, baseline_at(ui.fonts, lo.y + ui.theme.px(15))},
                    ui.theme.colors.quiet, label);
-  ImGui::SetCursorScreenPos({lo.x + columns.symbol, lo.y});
-  content(width - columns.symbol);
+  ImGui::SetCursorScreenPos({lo.x + before, lo.y});
+  content(width - before);
   // A control that is drawn last on the line ends it; whatever its height, the next row keeps clear of it.
   const float bottom = std::max(ImGui::GetItemRectMax().y, lo.y + ui.theme.px(30));
   ImGui::SetCursorScreenPos({lo.x, bottom + ui.theme.px(4)});

@@ -280,9 +280,9 @@ void constants_sections(Ui& ui) {
   }
 }
 
-/// Height of eight rows of constants with the heads of their sections: less is too little of the list.
+/// Height of the sections of the integrator and the springs: less is too little of the list.
 float least_list(const Ui& ui) {
-  return ui.theme.px(372);
+  return ui.theme.px(250);
 }
 
 /// What goes on below the lower edge of the list fades out there instead of being cut through.

@@ -84,17 +84,6 @@ float line_height(const Ui& ui) {
 
 constexpr float unit_at_1 = 24;  // of "mN", px at scale 1
 
-/// A number of a table whose unit suits its largest: three digits of that one, three decimals of what is far smaller.
-std::string in_table(double value) {
-  const double size = std::abs(value);
-  if (size >= 99999.5) return power_number(value, 1);
-  const bool fixed = (size > 0 && size < 0.0995) || size >= 999.5;
-  if (!fixed) return steady_number(value);
-  char text[16];
-  std::snprintf(text, sizeof text, "%.*f", size < 1 ? 3 : 0, size < 0.0005 ? 0 : value);  // no "-0.000"
-  return text;
-}
-
 /// Where numbers end, from the left of the panel: one grid for forces (two to a line) and motion (three to a line).
 struct Grid {
   float first_end, middle_end, last_end;  ///< of numbers; units stand behind them
@@ -181,7 +170,7 @@ void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout,
   if (lacks_contact(readout, key)) contact_mark(ui, symbol, what.symbol);
   const ImFont& mono = *ui.fonts.mono;
   for (std::size_t k = 0; k < ends.size(); ++k) {
-    const std::string text = readout != nullptr ? in_table(numbers[k] / unit.size) : "–";
+    const std::string text = readout != nullptr ? table_number(numbers[k] / unit.size) : "–";
     draw_on_baseline(draw, mono, {lo.x + ends[k] - text_width(mono, text), baseline}, c.text, text);
   }
   if (with_unit)

@@ -184,7 +184,7 @@ std::string stability_words(const StabilityLimits& limits, double dt) {
 
 void stability_row(Ui& ui) {
   const auto& limits = ui.session.studies.stability.limits();
-  labeled_row(ui, "limit", [&](float width) {
+  labeled_row(ui, "dt/limit", [&](float width) {
     const RowColumns columns = row_columns(ui);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float height = ui.theme.px(30);  // as the labels of such rows are placed

@@ -161,7 +161,7 @@ void save_preset_dialog(Ui& ui) {
   Dialog& dialog = ui.dialog;
   title(ui, "Save the preset");
   label(ui, "Name");
-  const bool renamed = text_field(ui, "##name", dialog.name, ImGui::IsWindowAppearing());
+  const bool renamed = text_field(ui, "##name", dialog.name, ImGui::IsWindowAppearing() && !dialog.refused);
   if (renamed && dialog.path_follows)
     set(dialog.path, (path_of(dialog.path).parent_path() / file_name_for(dialog.name)).string());
   bool moved = false;
@@ -453,7 +453,8 @@ void show_save_problem(Ui& ui, const fs::path& file, const std::string& name, co
   open_dialog(ui, DialogKind::save);
   set(ui.dialog.path, file.string());
   set(ui.dialog.name, name);
-  ui.dialog.problem = problem;
+  ui.dialog.path_follows = false;
+  refuse(ui.dialog, problem);
 }
 
 void show_picture_problem(Ui& ui, const PictureOrder& order, const std::string& problem) {

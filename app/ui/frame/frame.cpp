@@ -15,7 +15,14 @@ namespace {
 
 constexpr double gesture_end = 0.6;  // s without a change
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
-constexpr float presented_axis_text = 0.025f;  // of the window's height: read from the last row of a lecture hall
+// Of the window's height: read from the last row of a lecture hall.
+constexpr float presented_axis_text = 0.025f, presented_text = 0.02f;
+constexpr float tallest_presented = 0.75f;  // of the width: a window that is taller has text as if it were that
+
+/// The least scale of text in presentation mode.
+float presented_scale(ImVec2 window) {
+  return std::ceil(presented_text * std::min(window.y, tallest_presented * window.x)) / small_text_at_1;
+}
 
 /// Overlaid copies have the colors of their curves.
 void color_copies(Ui& ui) {
@@ -34,8 +41,11 @@ void follow_session(Ui& ui) {
 
 bool take_look(Ui& ui, float content_scale) {
   if (ui.input.scale_changed) ui.scale_changed = true;
-  const float axis_text = ui.presenting ? std::ceil(presented_axis_text * ImGui::GetIO().DisplaySize.y) : 0;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float axis_text = ui.presenting ? std::ceil(presented_axis_text * window.y) : 0;
+  const float least_scale = ui.presenting ? presented_scale(window) : 0;
   if (std::exchange(ui.theme.axis_text, axis_text) != axis_text) ui.scale_changed = true;
+  if (std::exchange(ui.theme.least_scale, least_scale) != least_scale) ui.scale_changed = true;
   if (!ui.scale_changed) return false;
   ui.scale_changed = false;
   const Look& look = tyglab::look(ui.settings.theme);
@@ -45,7 +55,7 @@ bool take_look(Ui& ui, float content_scale) {
   const float magnified = ui.presenting ? tyglab::look("projector").magnified : look.magnified;
   const float scale = content_scale * float(ui.settings.ui_scale) * magnified;
   ui.theme.display = content_scale;
-  ui.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
+  ui.theme.scale = std::clamp(std::max(scale, least_scale), text_scale_least, text_scale_most);
   apply_style(ui.theme);
   ui.scene.scale = ui.theme.scale;
   return true;

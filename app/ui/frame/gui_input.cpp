@@ -155,6 +155,7 @@ void GuiInput::feed(InputQueue& input) {
   release_keys(input);
   Frame frame;
   held_ = gui::typing_text() ? 0 : std::max(held_ - 1, 0);
+  if (std::exchange(input.field_opens, false)) held_ = most_held;
   const auto next = std::find_if_not(waiting_.begin(), waiting_.end(),
                                      [&](const InputEvent& event) { return held_ == 0 && show(event, frame); });
   waiting_.erase(waiting_.begin(), next);

@@ -85,6 +85,32 @@ bool slider_takes(Ui& ui, const KeyEvent& event) {
   return true;
 }
 
+bool is_letter(int key) {
+  return key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+}
+
+/// What a number may begin with.
+bool begins_number(int key) {
+  constexpr std::array signs{GLFW_KEY_PERIOD, GLFW_KEY_COMMA, GLFW_KEY_MINUS, GLFW_KEY_KP_DECIMAL,
+                             GLFW_KEY_KP_SUBTRACT};
+  return (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) || (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) ||
+         std::find(signs.begin(), signs.end(), key) != signs.end();
+}
+
+/// While a lab's question is shown and waits, a number that is typed is its answer, and letters lead to no command: who
+/// types an answer without a click on its field would change the scene.
+bool question_takes(Ui& ui, const KeyEvent& event) {
+  const bool number = begins_number(event.key);
+  if (!ui.lab_field.waits || (event.mods & counted & ~GLFW_MOD_SHIFT) != 0 || !(number || is_letter(event.key)))
+    return false;
+  if (number && ui.lab_field.shown) {
+    ui.lab_field.again = ui.input.field_opens = true;
+    return true;
+  }
+  ui.messages.note("The lab waits for your prediction. Until it is made, letters and digits are no shortcuts.");
+  return true;
+}
+
 /// The palette takes what moves in its list and what ends it; letters go to its text field.
 bool palette_takes(Ui& ui, const KeyEvent& event) {
   CommandPalette& palette = ui.palette;
@@ -167,7 +193,8 @@ void take_key(Ui& ui, const KeyEvent& event) {
   const bool taken = film_takes(ui, event) || dialog_takes(ui, event) || palette_takes(ui, event) ||
                      help_takes(ui, event) || methods_take(ui, event) || list_takes(ui, event) ||
                      typing_takes(ui, event) || resolution_takes(ui, event) || slider_takes(ui, event) ||
-                     tour_takes(ui, event) || copy_details_take(ui, event) || presentation_takes(ui, event);
+                     tour_takes(ui, event) || copy_details_take(ui, event) || presentation_takes(ui, event) ||
+                     question_takes(ui, event);
   if (!taken) command_for(ui, event);
 }
 

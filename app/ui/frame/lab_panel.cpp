@@ -18,12 +18,13 @@
 namespace tyglab {
 namespace {
 
-constexpr float column_at_1 = 380, strip_at_1 = 140;      // width beside the cloth, least height below it
-constexpr float header_at_1 = 40, foot_at_1 = 38;         // of a strip's header, of a row of buttons
-constexpr float gap_at_1 = 20, paragraph_at_1 = 6;        // between columns of text, between paragraphs
-constexpr float two_columns_from = 480, rows_at_1 = 220;  // width of text in two columns, of constants beside text
-constexpr float column_from = 1280;                       // width of a window, at the display's scale
-constexpr float least_cloth = 0.45f, most_strip = 0.35f;  // of the window's width and height
+constexpr float column_at_1 = 380, strip_at_1 = 140;           // width beside the cloth, least height below it
+constexpr float header_at_1 = 40, foot_at_1 = 38;              // of a strip's header, of a row of buttons
+constexpr float gap_at_1 = 20, paragraph_at_1 = 6;             // between columns of text, between paragraphs
+constexpr float two_columns_from = 480, rows_at_1 = 220;       // width of text in two columns, of constants beside text
+constexpr float column_from = 1280;                            // width of a window, at the display's scale
+constexpr float least_cloth = 0.45f, presented_cloth = 0.65f;  // of the window's width
+constexpr float most_strip = 0.35f;                            // of its height
 constexpr float button_gap_at_1 = 6;
 
 /// Blocks below each other in columns of one height, as many columns as a page has. What is on another page than the
@@ -122,16 +123,17 @@ void verdict(Ui& ui, Pages& pages, const Prediction& asked, const StepRecord& re
   const std::string said = number ? with_unit(typed_number(record.typed, asked.unit).value_or(0), asked.unit)
                                   : asked.choices[std::size_t(record.chosen)];
   if (!record.done) return marked_line(ui, pages, icon::right, ">", c.accent, "You predict: " + said, c.text);
-  if (record.looked)
-    return marked_line(ui, pages, icon::unknown, "?", c.warning, "Predicted after a look, so not counted: " + said,
-                       c.text);
   // What the step has measured is said beside what was predicted, even if that is near enough.
   const bool measured = number && !asked.answer.name.empty();
   const std::string answer = number ? with_unit(rounded(record.answer, 3), asked.unit) : asked.choices[asked.right];
-  if (record.right)
+  if (record.right && !record.looked)
     return marked_line(ui, pages, icon::check, "+", c.good,
                        "You were right: " + said + (measured ? "; measured: " + answer : ""), c.text);
-  marked_line(ui, pages, icon::close, "x", c.warning, "You predicted: " + said, c.text);
+  if (record.looked)
+    marked_line(ui, pages, icon::unknown, "?", c.warning,
+                "Predicted after constants were changed, so not counted: " + said, c.text);
+  else
+    marked_line(ui, pages, icon::close, "x", c.warning, "You predicted: " + said, c.text);
   marked_line(ui, pages, icon::check, "+", c.good, (measured ? "Measured: " : "Right: ") + answer, c.text);
 }
 
@@ -152,7 +154,7 @@ float button_width(const Ui& ui, const char* label) {
 void number_field(Ui& ui, const Prediction& asked, StepRecord& record, float width) {
   constexpr float least = 60, usual = 120;  // of the field, pixels at scale 1
   LabField& field = ui.lab_field;
-  field.seen = true;
+  field.waits = field.shown = true;
   const float gap = ImGui::GetStyle().ItemSpacing.x,
               unit = asked.unit.empty() ? 0 : text_width(*ui.fonts.text, asked.unit) + gap,
               room = width - gap - unit - button_width(ui, "Predict");
@@ -212,6 +214,7 @@ void choice_list(Ui& ui, Pages& pages, const Choices& choices, StepRecord& recor
   for (int k = 0; k < int(choices.words.size()); ++k) {
     const ImVec2 size{pages.width(), choices.heights[std::size_t(k)]};
     if (!pages.block(size.y)) continue;
+    ui.lab_field.waits = true;
     ImGui::PushID(k);
     if (gui::press_area("choice", size)) record.chosen = k;
     report_control(ui, "choice." + std::to_string(k + 1));
@@ -560,7 +563,7 @@ void lab_in_strip(Ui& ui, LabRun& run, const Region& region, bool with_constants
 
 float lab_column_width(const Ui& ui, float window) {
   if (window < column_from * ui.theme.display) return 0;
-  return std::floor(std::min(ui.theme.px(column_at_1), (1 - least_cloth) * window));
+  return std::floor(std::min(ui.theme.px(column_at_1), (1 - (ui.presenting ? presented_cloth : least_cloth)) * window));
 }
 
 float room_beside_cloth(float window) {

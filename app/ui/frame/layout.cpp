@@ -209,6 +209,7 @@ void draw_layout(Ui& ui, ImVec2 window) {
   const Region& viewport = plan.viewport;
   const float left = viewport.at.x, right = left + viewport.size.x;
   ui.viewport_left = left;
+  ui.lab_field.waits = ui.lab_field.shown = false;
   ui.time_in_picture = plan.podium.size.y > 0 && !time_on_podium(ui, window.x);
   if (viewport.size.x > 0) {
     viewport_panel(ui, viewport);
@@ -238,7 +239,7 @@ void draw_layout(Ui& ui, ImVec2 window) {
   palette(ui);
   dialogs(ui);
   ui.lab_field.enter = false;
-  if (!std::exchange(ui.lab_field.seen, false)) ui.lab_field.again = false;
+  if (!ui.lab_field.shown) ui.lab_field.again = false;
   ui.viewport.blocked = ui.palette.open || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 

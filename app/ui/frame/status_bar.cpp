@@ -74,7 +74,7 @@ std::vector<std::string> facts_of(const Ui& ui) {
   if (const int torn = ui.session.simulation->tears().torn_count(); torn > 0)
     facts.push_back(std::to_string(torn) + (torn == 1 ? " spring" : " springs") + " torn or cut");
   if (const SolveCounts solves = ui.session.simulation->engine().solves(); solves.unconverged > 0)
-    facts.push_back(stopped_early(solves, ui.session.simulation->steps()));
+    facts.push_back(unsolved(solves, ui.session.simulation->steps(), ui.session.preset()));
   if (ui.session.asleep()) facts.emplace_back("at rest: wakes when touched");
   if (const std::string without = ui.scene.effects.words(); !without.empty()) facts.push_back("without " + without);
   return facts;

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {
@@ -106,6 +108,8 @@ void tour_contents(Ui& ui) {
   wrapped(ui, stop.title, c.text);
   ImGui::PopFont();
   wrapped(ui, stop.text, c.text);
+  const std::string paused = "The motion is paused: Space runs it.";
+  if (card == 0 && !ui.session.pacing.playing) wrapped(ui, ui.input.by_touch ? for_fingers(paused) : paused, c.text);
   ImGui::Dummy({0, ui.theme.px(2)});
   const bool last = card + 1 == int(stops.size());
   if (text_button(ui, last ? "Done" : "Next", true)) go_to(ui, card + 1);

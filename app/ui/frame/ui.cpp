@@ -73,7 +73,7 @@ void Ui::show_what_to_change() {
 void Ui::tell_of_first_cut() {
   constexpr double read_in = 8;  // s
   const auto kind = tools.tool.kind;
-  if (kind == Tool::Kind::grab) cut_hint.reset();
+  if (kind == Tool::Kind::grab || session.counts.hands != seen_.hands) cut_hint.reset();
   if (session.counts.touches == seen_.touches || kind != Tool::Kind::cut || settings.cut_told) return;
   settings.cut_told = true;
   cut_hint = CutHint{input.at, now + read_in};

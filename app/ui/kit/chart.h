@@ -107,8 +107,8 @@ struct PlotFrame {
   bool log = false;
   bool from_zero = false;  ///< a linear axis of magnitudes begins at 0
   std::string_view unit;
-  std::string_view when_empty;  ///< said where there is nothing to plot, or all of it was earlier
-  double time_step = 1e-3;      ///< s, that the read-out of t tells apart
+  std::string when_empty;   ///< said where there is nothing to plot, or all of it was earlier
+  double time_step = 1e-3;  ///< s, that the read-out of t tells apart
 };
 
 /// The scale of the y axis: it holds nearly all of what the window shows. A few values far beyond (a blow-up) do not

@@ -138,7 +138,7 @@ Fonts build_fonts(float scale, float axis) {
   Fonts fonts;
   Builder builder(scale, fonts);
   fonts.text = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 14, text_glyphs, true);
-  fonts.small = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 12, text_glyphs);
+  fonts.small = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", small_text_at_1, text_glyphs);
   fonts.title = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 14, text_glyphs, true);
   fonts.brand = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 17, plain_glyphs);
   fonts.large_icons = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 18, plain_glyphs, true);

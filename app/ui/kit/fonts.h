@@ -8,6 +8,8 @@
 
 namespace tyglab {
 
+inline constexpr float small_text_at_1 = 12;  ///< the smallest font's size, px at scale 1
+
 struct Fonts {
   ImFont* text = nullptr;          ///< 14 at scale 1, with icons
   ImFont* small = nullptr;         ///< 12, quiet labels and section heads

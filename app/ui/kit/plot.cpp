@@ -166,10 +166,12 @@ float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const Plot
   draw_ground(paint, axes, ticks);
   draw_x_ticks(paint, axes, time_ticks(frame.x_min, frame.x_max), "s");
   if (empty) {
-    const float width = text_width(font, frame.when_empty), pad = ui.theme.px(6);
+    const float pad = ui.theme.px(6);
+    const std::string words = fitted(font, frame.when_empty, axes.hi.x - axes.lo.x - 2 * pad);
+    const float width = text_width(font, words);
     const ImVec2 at{std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)};
     paint.draw.AddRectFilled({at.x - pad, at.y}, {at.x + width + pad, at.y + font.FontSize}, ui.theme.colors.ground);
-    draw_text(paint.draw, font, at, ui.theme.colors.quiet, frame.when_empty);
+    draw_text(paint.draw, font, at, ui.theme.colors.quiet, words);
     return 0;
   }
   const auto [first, last] = window_of(curves.front().x, frame);

@@ -41,8 +41,9 @@ const Look& look(std::string_view name);
 struct Theme {
   Tokens colors = dark_tokens();
   float scale = 1;
-  float display = 1;    ///< the monitor's content scale alone
-  float axis_text = 0;  ///< least size of numbers at the axes of plots, px
+  float display = 1;      ///< the monitor's content scale alone
+  float axis_text = 0;    ///< least size of numbers at the axes of plots, px
+  float least_scale = 0;  ///< of text in presentation mode, by the size of the window
   /// Whole pixels for a length given at scale 1; the rhythm of the layout is 8.
   float px(float length) const { return std::round(length * scale); }
 };

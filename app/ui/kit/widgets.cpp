@@ -312,12 +312,22 @@ ImVec2 segments_size(const UiContext& ui, const char* const* labels, int count, 
   return segment_places(ui, labels, count, room_at_1, width).size;
 }
 
+namespace {
+
+constexpr float check_box_at_1 = 16, check_gap_at_1 = 8;  // pixels at scale 1
+
+}  // namespace
+
+float check_width(const UiContext& ui, const char* label) {
+  return ui.theme.px(check_box_at_1) + ui.theme.px(check_gap_at_1) + text_width(*ui.fonts.text, label);
+}
+
 bool check(UiContext& ui, const char* label, bool value) {
   const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float box = ui.theme.px(16), height = ui.theme.px(26), gap = ui.theme.px(8);
+  const float box = ui.theme.px(check_box_at_1), height = ui.theme.px(26), gap = ui.theme.px(check_gap_at_1);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool clicked = gui::press_area(label, {box + gap + text_width(*ui.fonts.text, label), height});
+  const bool clicked = gui::press_area(label, {check_width(ui, label), height});
   report_control(ui, label);
   const ImVec2 at{lo.x, std::round(lo.y + (height - box) / 2)};
   const ImU32 ground = value ? c.accent : ImGui::IsItemHovered() ? c.line : c.field_hover;

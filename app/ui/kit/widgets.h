@@ -47,6 +47,8 @@ int segments(UiContext& ui, const char* id, const char* const* labels, int count
 ImVec2 segments_size(const UiContext& ui, const char* const* labels, int count, float padding = 11, float width = 1e9f);
 /// A check box of the house's look. Returns whether it was clicked.
 bool check(UiContext& ui, const char* label, bool value);
+/// What it takes, px.
+float check_width(const UiContext& ui, const char* label);
 
 /// Head of a section: small capitals, what is to be noted of it, and a line; a click folds it. Returns whether it is
 /// open.

@@ -42,6 +42,8 @@ void divergence_mark(Ui& ui, ImDrawList& draw);
 void pointer_overlay(Ui& ui, ImDrawList& draw);
 /// Which scene it is, in presentation mode, where no bar says so. `row`: the picture's upper edge.
 void scene_name(Ui& ui, ImDrawList& draw, const Box& row);
+/// What the level lines beside a mass on a spring are: the spring's rest position and the equilibrium.
+void level_labels(Ui& ui, ImDrawList& draw);
 /// Of PAUSED without its keys, px.
 glm::vec2 pause_mark_size(const Ui& ui);
 /// How the panels that Tab has hidden come back, and which lab goes on meanwhile.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/base/text.h"
 #include "app/render/solid_mesh.h"
@@ -11,6 +13,7 @@
 #include "app/tools/tools.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 
@@ -79,6 +82,47 @@ std::vector<Box> drawn_parts(Ui& ui) {
     add_box(ui, 0, {arrow.base, arrow.tip}, parts);
   }
   return parts;
+}
+
+namespace {
+
+/// Beside a level line that reaches as far as `reach` to both sides of `middle`, m.
+void level_label(Ui& ui, ImDrawList& draw, glm::dvec3 middle, double reach, const std::string& words) {
+  const ImFont& font = *ui.fonts.text;
+  const float pad = ui.theme.px(6), gap = ui.theme.px(8), height = font.FontSize + pad,
+              width = std::ceil(text_width(font, words)) + 2 * pad;
+  const glm::dvec3 side(reach, 0, 0);
+  const Box picture{ui.viewport.origin(0), ui.viewport.origin(0) + ui.viewport.size()};
+  std::vector<Box> places;
+  const auto add = [&](std::optional<ImVec2> end, float to_left) {
+    if (!end) return;
+    const glm::vec2 lo = glm::round(glm::vec2(end->x + to_left, end->y - height / 2));
+    if (picture.contains(lo) && picture.contains(lo + glm::vec2(width, height)))
+      places.push_back({lo, lo + glm::vec2(width, height)});
+  };
+  add(on_screen(ui, 0, middle + side), gap), add(on_screen(ui, 0, middle - side), -gap - width);
+  // In a picture that is saved it stands as it was shown.
+  const std::string name = "level " + words;
+  const Box* const before = ui.bare() ? ui.placing.find(name) : nullptr;
+  const std::optional<Box> box = before != nullptr ? *before : ui.placing.first_free(places);
+  if (!box) return;
+  ui.placing.take(name, *box);
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(ui.theme.colors.ground, 0.85f), ui.theme.px(4));
+  draw_on_baseline(draw, font, {box->lo.x + pad, baseline_at(ui.fonts, (box->lo.y + box->hi.y) / 2)},
+                   ui.theme.colors.text, words);
+}
+
+}  // namespace
+
+void level_labels(Ui& ui, ImDrawList& draw) {
+  const Simulation& cloth = cloth_in_tile(ui.scene, 0);
+  const Preset& preset = cloth.preset();
+  if (preset.kind != Kind::one_weight) return;
+  const double reach = weight_model(preset, cloth.positions().at(0, 0)).radius / 0.19;
+  level_label(ui, draw, preset.x_0, reach, "x₀: y = " + quantity(preset.x_0.y, "m", 3));
+  const double sag = preset.k > 0 ? preset.m * preset.g / preset.k : 0;
+  if (ui.scene.view.equilibrium && sag != 0)
+    level_label(ui, draw, preset.x_0 - glm::dvec3(0, sag, 0), reach, "equilibrium");
 }
 
 void danger_ground(Ui& ui, const Box& box, const char* mark) {

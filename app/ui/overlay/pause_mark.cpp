@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/base/text.h"
+#include "app/session/lab_state.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
@@ -18,6 +19,7 @@ constexpr const char *paused_word = "PAUSED", *replay_word = "REPLAY";
 const char* ways_on(const Ui& ui) {
   if (ui.input.by_touch) return "";
   if (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter accepts · Esc cancels";
+  if (awaits_prediction(ui.session)) return "Predict in the lab to run";
   if (ui.slider.focused != 0) return "Space runs · O makes one step · → moves the slider until Esc";
   return "Space runs · → makes one step";
 }

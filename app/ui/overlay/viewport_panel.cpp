@@ -142,6 +142,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     hidden_panels_mark(ui, draw);
     film_mark(ui, draw);
   }
+  level_labels(ui, draw);
   color_legend(ui);
   if (!bare) {
     const glm::vec2 lo(region.at.x, region.at.y), hi = lo + glm::vec2(region.size.x, region.size.y);

@@ -190,7 +190,8 @@ struct LabCards {
 struct LabField {
   bool enter = false;  ///< Enter was pressed in it in this frame
   bool again = false;  ///< what was typed is refused: it is to take keys again, all of its text selected
-  bool seen = false;   ///< it is drawn in this frame
+  bool waits = false;  ///< what answers the question was drawn in the last frame
+  bool shown = false;  ///< and that is the field, not a list of choices
 };
 
 /// The pages of a lab's step.

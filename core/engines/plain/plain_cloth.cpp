@@ -24,8 +24,8 @@ Vector forces(const Preset& preset, const Tears& tears, const Vector& x, const V
           std::array<std::size_t, Stencil::most_points> particle{};
           Points points;
           for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
-            particle[n] = std::size_t(i + stencil.at[n].di) * std::size_t(lattice.columns) +
-                          std::size_t(j + stencil.at[n].dj);
+            particle[n] =
+                std::size_t(i + stencil.at[n].di) * std::size_t(lattice.columns) + std::size_t(j + stencil.at[n].dj);
             points.x[n] = x[particle[n]], points.v[n] = v[particle[n]];
           }
           ForceAction action;
@@ -100,7 +100,8 @@ double Cloth::tear_overloaded(Tears& tears) const {
   const auto guarded = [&](int i, int j) {
     for (int di = -1; di <= 1; ++di)
       for (int dj = -1; dj <= 1; ++dj)
-        if (lattice.contains(i + di, j + dj) && fixed[std::size_t((i + di) * lattice.columns + j + dj)] != 0) return true;
+        if (lattice.contains(i + di, j + dj) && fixed[std::size_t((i + di) * lattice.columns + j + dj)] != 0)
+          return true;
     return false;
   };
   double slack = std::numeric_limits<double>::infinity();
@@ -110,8 +111,8 @@ double Cloth::tear_overloaded(Tears& tears) const {
         const auto [di, dj, rest, bending] = directions[std::size_t(d)];
         if (!lattice.has_spring(d, i, j) || !tears.whole(d, i, j) || guarded(i, j) || guarded(i + di, j + dj)) continue;
         const Vector& x = vectors[vector_x];
-        const double length = glm::distance(x[std::size_t(i * lattice.columns + j)],
-                                            x[std::size_t((i + di) * lattice.columns + j + dj)]);
+        const double length =
+            glm::distance(x[std::size_t(i * lattice.columns + j)], x[std::size_t((i + di) * lattice.columns + j + dj)]);
         const double longer = length - rest * preset.L;
         if (preset.k_s * longer > preset.F_max)
           tears.tear(d, i, j);

@@ -49,8 +49,8 @@ struct Cloth {
   void step(const Tears& tears);
   /// The method's own start.
   void start(const Tears& tears);
-  /// Breaks the springs whose F_s exceeds F_max, but those near what is pinned or held. Returns by how much any other may
-  /// grow before it breaks, m.
+  /// Breaks the springs whose F_s exceeds F_max, but those near what is pinned or held. Returns by how much any other
+  /// may grow before it breaks, m.
   double tear_overloaded(Tears& tears) const;
 
  private:

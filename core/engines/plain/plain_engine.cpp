@@ -108,8 +108,8 @@ class PlainEngine final : public Engine, private GuardedSteps {
 
 void PlainEngine::take_preset(const Preset& preset) {
   cloth_.preset = preset;
-  guard_.set_rules({.tearing = preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth,
-                    .F_release = preset.F_release});
+  guard_.set_rules(
+      {.tearing = preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth, .F_release = preset.F_release});
   guard_.set_scene(preset, lattice_, held_);
   guard_.invalidate();
 }
