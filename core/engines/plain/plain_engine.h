@@ -1,5 +1,5 @@
 // The plain cloth (plain_cloth.h) as an engine: `--engine plain`. In double whatever the preset's precision, on one
-// thread, about a hundred times slower than the CPU engine.
+// thread, about 60 times slower than the CPU engine.
 #pragma once
 
 #include <memory>
