@@ -89,8 +89,7 @@ std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClIn
 
 std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
   if (mode.engine == EngineKind::plain)
-    return "Loops over particles as a student would write them, in double: the reference of the others, about 100 "
-           "times "
+    return "Loops over particles as a student would write them, in double: the reference of the others, about 60 times "
            "slower than the CPU engine.";
   std::string where = "On the CPU";
   if (mode.engine == EngineKind::opencl) {
