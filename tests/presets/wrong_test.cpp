@@ -258,6 +258,15 @@ TEST_CASE("what is JSON and what is not is judged as another reader of JSON does
   }
 }
 
+TEST_CASE("a preset that ends anywhere is refused") {
+  const std::string whole =
+      R"({"tyglab_preset": 1, "name": "\u00e5 \ud83d\ude00\n", "cloth": {"rows": 15, "pins": [[0, 1]]}})";
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    CAPTURE(length);
+    CHECK_FALSE(error_of(whole.substr(0, length)).empty());
+  }
+}
+
 TEST_CASE("deep nesting and endless lists are refused, not followed") {
   for (const int depth : {20, 1000, 1000000}) {
     error_of(std::string(depth, '['));
