@@ -2,7 +2,7 @@
 
 #include "core/engines/cpu/cpu_engine.h"
 #include "core/engines/opencl/opencl_devices.h"
-#include "core/engines/plain/plain_engine.h"
+#include "core/engines/plain/plain_cloth.h"
 
 namespace tyglab {
 

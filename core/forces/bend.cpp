@@ -1,7 +1,6 @@
 // F_b: springs that push while they are shorter than at rest, to every second particle along rows and columns
 // (2.7, 2.8).
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "core/forces/force.h"
 

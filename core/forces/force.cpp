@@ -23,13 +23,6 @@ std::size_t index_of(const Force& force) {
   return std::size_t(at - force::all.begin());
 }
 
-const Force& force_called(std::string_view symbol) {
-  const auto at =
-      std::find_if(force::all.begin(), force::all.end(), [&](const Force* f) { return f->symbol == symbol; });
-  assert(at != force::all.end());
-  return **at;
-}
-
 std::span<const Stencil> stretch_stencils() {
   static const auto list = [] {
     std::array<Stencil, stretch_directions> all;

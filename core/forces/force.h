@@ -111,9 +111,6 @@ struct PerForce {
   }
 };
 
-/// The force of that symbol, which must exist.
-const Force& force_called(std::string_view symbol);
-
 /// Calls visit(force, stencil) for the stencils of every force that the scene has.
 template <class Visit>
 void for_each_stencil(const Preset& preset, const Visit& visit) {
@@ -122,7 +119,7 @@ void for_each_stencil(const Preset& preset, const Visit& visit) {
       for (const Stencil& stencil : force->stencils(preset)) visit(*force, stencil);
 }
 
-/// ForceAction of a force with a potential φ(|d|): -w·factor·d on each point.
+/// What a force with a potential φ(|d|) does: -w·factor·d on each point.
 inline void act_along_d(decltype(Force::potential) potential, const Preset& preset, const Stencil& stencil,
                         const Points& points, ForceAction& action) {
   glm::dvec3 d{0};

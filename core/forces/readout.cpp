@@ -86,17 +86,16 @@ ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Nei
 std::vector<StencilForce> stencils_on_particle(const Preset& p, const Tears& tears, const Neighborhood& near, int i,
                                                int j) {
   std::vector<StencilForce> all;
-  for_each_action(p, tears, near, i, j,
-                  [&](const Force& force, const Stencil& stencil, int oi, int oj, const Points& points,
-                      const ForceAction& action, std::size_t own) {
-                    if (force.group != Force::Group::internal) return;
-                    glm::dvec3 d{0};
-                    for (std::size_t n = 0; n < std::size_t(stencil.points); ++n)
-                      d += stencil.at[n].weight * points.x[n];
-                    const auto& other = stencil.at[own == 0 ? std::size_t(stencil.points - 1) : 0];
-                    all.push_back({&force, &stencil, oi, oj, oi + other.di, oj + other.dj, glm::length(d),
-                                   stencil.rest * p.L, action.F[own]});
-                  });
+  for_each_action(
+      p, tears, near, i, j,
+      [&](const Force& force, const Stencil& stencil, int oi, int oj, const Points& points, const ForceAction& action,
+          std::size_t own) {
+        if (force.group != Force::Group::internal) return;
+        glm::dvec3 d{0};
+        for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) d += stencil.at[n].weight * points.x[n];
+        const auto& other = stencil.at[own == 0 ? std::size_t(stencil.points - 1) : 0];
+        all.push_back({&force, oi + other.di, oj + other.dj, glm::length(d), stencil.rest * p.L, action.F[own]});
+      });
   return all;
 }
 

@@ -53,8 +53,6 @@ ForcesByKey<glm::dvec3> by_key(const ParticleForces& forces);
 /// What one stencil of an internal force does to a particle.
 struct StencilForce {
   const Force* force;
-  const Stencil* stencil;
-  int i, j;              ///< its owner
   int other_i, other_j;  ///< the particle at the other end, of a spring
   double length, rest;   ///< of d, m
   glm::dvec3 F{0};       ///< N

@@ -1,7 +1,6 @@
 // F_s: springs that pull while they are longer than at rest, to the eight nearest particles (2.4, 2.5); for a mass on a
 // spring, Hooke's two-sided spring to x_0 (2.3).
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "core/forces/force.h"
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "core/cloth/state.h"
@@ -59,3 +60,11 @@ struct Cloth {
 };
 
 }  // namespace tyglab::plain
+
+namespace tyglab {
+
+/// The plain cloth as an engine (`--engine plain`): on one thread, in double whatever the preset's precision. Throws
+/// EngineError for a method that is not written out (scheme.h).
+std::unique_ptr<Engine> make_plain_engine(const Preset& preset, const Lattice& lattice);
+
+}  // namespace tyglab

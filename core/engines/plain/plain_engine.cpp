@@ -1,10 +1,10 @@
-#include "core/engines/plain/plain_engine.h"
+// The plain cloth as an engine: what engine.h promises, around the loops of plain_cloth.h.
+#include "core/engines/plain/plain_cloth.h"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
 
-#include "core/engines/plain/plain_cloth.h"
 #include "core/engines/step_guard.h"
 #include "core/model/effect.h"
 #include "core/simd/row_field.h"
