@@ -60,9 +60,12 @@ class Page:
         for domain in ["Page", "Runtime", "Log", "Network"]:
             self.call(f"{domain}.enable")
 
-    def call(self, method, **parameters):
+    def send(self, method, **parameters):
         self.number += 1
         self.socket.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
+
+    def call(self, method, **parameters):
+        self.send(method, **parameters)
         while True:
             message = json.loads(self.socket.recv())
             if message.get("id") == self.number:
@@ -159,7 +162,9 @@ class Page:
             time.sleep(0.03)
 
     def touch(self, kind, *points):
-        self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": n} for n, (x, y) in enumerate(points)])
+        """As a hand does: only the end waits for the page, whose frames may take longer than the pause between moves."""
+        tell = self.call if kind == "touchEnd" else self.send
+        tell("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": n} for n, (x, y) in enumerate(points)])
 
     def picture(self, file):
         pathlib.Path(file).write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
