@@ -36,10 +36,10 @@ std::string with_whole_quantities(std::string text) {
 }
 
 /// What mouse and keys do, and what a finger does instead; longer ones before those that they contain.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 20> fingers_do{{
-    {"Press Space to run", "Tap Run at the top"},
-    {"Press Space", "Tap Run at the top"},
-    {"press Space", "tap Run at the top"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 24> fingers_do{{
+    {"Press Space to run", "Tap the triangle (Run) at the top"},
+    {"Press Space", "Tap the triangle (Run) at the top"},
+    {"press Space", "tap the triangle (Run) at the top"},
     {"Right-click a particle", "Tap a particle"},
     {"right-click a particle", "tap a particle"},
     {"Double-click the number", "Double-tap the number"},
@@ -60,6 +60,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> fingers_
     {"Ctrl+Z undoes that", "Undo reverts it"},
     {" (Ctrl+P)", ", in the menu,"},
     {"Space runs", "Run continues"},
+    {"Its height y is shown at the lower left", "Its height y stands at the end of Constants"},
+    {"They are shown at the lower left, and as arrows on the particle",
+     "They are arrows on the particle, and numbers at the end of Constants"},
+    {"A left drag cuts", "Cutting takes"},
+    {"a left drag cuts", "a finger cuts"},
 }};
 
 std::vector<std::string> split(std::string_view text, std::string_view at) {

@@ -97,8 +97,10 @@ Linearisation::Linearisation(const Simulation& simulation, Stop stop)
       else
         std::copy_n(view.d[c] + row, columns_, x.row(i, c));
     }
+  LinearSprings<double> springs;
+  springs.follow(p, simulation.tears(), stride_);
   for (int i = 0; i < rows_; ++i)
-    for (int d = 0; d < springs_of_a_particle; ++d) linearise(p, simulation.tears(), x, d, i);
+    for (int d = 0; d < springs_of_a_particle; ++d) linearise(p, simulation.tears(), springs, x, d, i);
   const auto held = simulation.held();
   for (int i = 0; i < rows_; ++i)
     for (int j = 0; j < columns_; ++j)
@@ -107,7 +109,8 @@ Linearisation::Linearisation(const Simulation& simulation, Stop stop)
 
 /// The springs of a row in one direction. Along a spring k, across it k (1 - rest/length): less than 0 for one that
 /// pushes, which is why it buckles.
-void Linearisation::linearise(const Preset& p, const Tears& tears, const Field& x, int d, int i) {
+void Linearisation::linearise(const Preset& p, const Tears& tears, const LinearSprings<double>& springs, const Field& x,
+                              int d, int i) {
   const Direction& to = directions[std::size_t(d)];
   if (i + to.di >= rows_) return;
   const double rest = to.rest * p.L, k = spring_constant(p, to) / p.m, per_mass = p.k_d / p.m;
@@ -116,6 +119,9 @@ void Linearisation::linearise(const Preset& p, const Tears& tears, const Field& 
   const std::ptrdiff_t stride = stride_;
   double* part = coefficients_.data() + i * coefficient_pitch(stride) + d * spring_parts * stride;
   double* damped = damping_.data() + (std::ptrdiff_t(i) * springs_of_a_particle + d) * stride;
+  const double* linear = springs.row(i);
+  if (linear != nullptr)
+    for (int j = 0; j < count; ++j) part[j + 3 * stride] = linear[d * stride + j] / p.m;
   const double *here = x.row(i) + shift, *there = x.row(i + to.di) + (shift ? 0 : to.dj);
   for (int j = 0; j < count; ++j) {
     if (!tears.whole(d, i, j + shift)) continue;
@@ -126,7 +132,7 @@ void Linearisation::linearise(const Preset& p, const Tears& tears, const Field& 
     if (to.bending ? length >= rest || length < 1e-9 * rest : length <= rest) continue;
     const double across = k * (1 - rest / length), along = std::sqrt(k - across) / length;
     part[j] = along * dx, part[j + stride] = along * dy, part[j + 2 * stride] = along * dz;
-    part[j + 3 * stride] = across;
+    part[j + 3 * stride] += across;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/forces/linear_springs.h"
 #include "core/model/preset.h"
 #include "core/simd/row_field.h"
 #include "core/simulation.h"
@@ -32,7 +33,8 @@ class Linearisation {
  private:
   using Field = simd::RowField<double>;
   struct Tridiagonal;
-  void linearise(const Preset& preset, const Tears& tears, const Field& x, int direction, int i);
+  void linearise(const Preset& preset, const Tears& tears, const LinearSprings<double>& springs, const Field& x,
+                 int direction, int i);
   Array<double> combined(double stiffness, double damping) const;
   Field beginning() const;
   bool all_fixed() const { return int(fixed_.size()) == rows_ * columns_; }

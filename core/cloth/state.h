@@ -94,6 +94,7 @@ class Tears {
   bool triangle_whole(int i, int j, int which) const;
   int torn_count() const { return torn_; }
   std::size_t bytes() const { return masks_.capacity(); }
+  bool operator==(const Tears&) const = default;
 
  private:
   std::size_t index(int i, int j) const {

@@ -57,20 +57,14 @@ class Reader {
   /// One stencil at all its owners.
   void add(const Force& force, const Stencil& stencil, EnergyReading& sum) const {
     double energy = 0, power = 0;
-    for (int i = 0; i < lattice_.rows; ++i)
-      for (int j = 0; j < lattice_.columns; ++j) {
-        if (!stencil.acts(tears_, i, j)) continue;
-        Points points;
-        for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
-          const std::size_t p =
-              std::size_t(i + stencil.at[n].di) * lattice_.columns + std::size_t(j + stencil.at[n].dj);
-          points.x[n] = x(p), points.v[n] = v(p);
-        }
-        ForceAction action;
-        force.act(p_, stencil, points, action);
-        energy += action.energy;
-        for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) power += glm::dot(action.F[n], points.v[n]);
-      }
+    const auto place = [&](int i, int j) { return std::size_t(i) * lattice_.columns + std::size_t(j); };
+    for_each_action(
+        p_, tears_, force, stencil, [&](int i, int j) { return x(place(i, j)); },
+        [&](int i, int j) { return v(place(i, j)); },
+        [&](const Points& points, const ForceAction& action) {
+          energy += action.energy;
+          for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) power += glm::dot(action.F[n], points.v[n]);
+        });
     (force.conserves ? sum.energy.of : sum.power.of)[force] += force.conserves ? energy : power;
   }
 

@@ -204,6 +204,14 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
     for (int i = 0; i + directions[d].di < lattice.rows; ++i)
       motion.squared +=
           spring_constant(preset, directions[d]) / preset.m * strain_squared(preset, lattice, tears, state, d, i);
+  const auto x_of = [&](int i, int j) {
+    return glm::dvec3(state.x_row(i, 0)[j], state.x_row(i, 1)[j], state.x_row(i, 2)[j]);
+  };
+  for_each_stencil(preset, [&](const Force& force, const Stencil& stencil) {
+    if (force.linear == nullptr) return;
+    for_each_action(preset, tears, force, stencil, x_of, x_of,
+                    [&](const Points&, const ForceAction& action) { motion.squared += 2 / preset.m * action.energy; });
+  });
   return motion;
 }
 

@@ -31,6 +31,13 @@ double reach_squared(const Preset& p, const Lattice& lattice) {
                  held = dir.bending ? k * std::pow(dir.rest * p.L, 2) : k * longest * longest;
     sum += springs * (held / p.m + longest * longest * per_step);
   }
+  for_each_stencil(p, [&](const Force& force, const Stencil& stencil) {
+    if (force.linear == nullptr) return;
+    double weights = 0;  // the sum of those above 0: so many springs at most of two rest lengths, end to end
+    for (const Stencil::Point& point : stencil.at) weights += std::max(point.weight, 0.0);
+    const double longest = weights * longest_factor * 2 * p.L;
+    sum += double(lattice.size()) * force.linear(p, stencil) / p.m * longest * longest;
+  });
   return sum;
 }
 

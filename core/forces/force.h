@@ -18,7 +18,7 @@ namespace tyglab {
 
 /// The particles that a force couples, as seen from the one that owns them.
 struct Stencil {
-  static constexpr int most_points = 4;
+  static constexpr int most_points = 4, most_springs = 6;
   struct Point {
     int di = 0, dj = 0;
     double weight = 0;  ///< w in d = Σ w x, for a force that depends on d
@@ -32,7 +32,7 @@ struct Stencil {
   std::array<Point, most_points> at{};
   double rest = 0;  ///< length of d at rest, in units of L
   int springs = 0;
-  std::array<Spring, most_points> spring{};  ///< it acts while these are whole
+  std::array<Spring, most_springs> spring{};  ///< it acts while these are whole
   Owners owners = Owners::all;
 
   /// Whether particle (i, j) owns one that acts.
@@ -74,6 +74,9 @@ struct Force {
 
   // Forces with a potential φ(|d|):
   Potential (*potential)(const Preset&, const Stencil&, double d_squared) = nullptr;
+  /// κ, N/m, where φ = ½κ|d|² and Σ w = 0: a force that is linear in positions. All engines have it at once, as springs
+  /// (linear_springs.h) or by its stencils.
+  double (*linear)(const Preset&, const Stencil&) = nullptr;
   /// The largest second derivative of φ, N/m.
   double (*stiffness)(const Preset&, const Stencil&) = nullptr;
   /// The constant that it is proportional to.
@@ -87,9 +90,9 @@ struct Force {
 };
 
 namespace force {
-extern const Force stretch, bend, damping, gravity, wind;
-/// In the order of the report.
-inline constexpr std::array all{&stretch, &bend, &damping, &gravity, &wind};
+extern const Force stretch, bend, rigidity, damping, gravity, wind;
+/// In the order of the report, and what it does not have beside what is like it.
+inline constexpr std::array all{&stretch, &bend, &rigidity, &damping, &gravity, &wind};
 }  // namespace force
 
 /// Where a force stands in the table.
@@ -119,6 +122,31 @@ void for_each_stencil(const Preset& preset, const Visit& visit) {
       for (const Stencil& stencil : force->stencils(preset)) visit(*force, stencil);
 }
 
+/// The particles of a stencil that (i, j) owns; x_of(i, j) and v_of(i, j) say where they are.
+template <class X, class V>
+Points points_of(const Stencil& stencil, int i, int j, const X& x_of, const V& v_of) {
+  Points points;
+  for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
+    const auto& [di, dj, weight] = stencil.at[n];
+    points.x[n] = x_of(i + di, j + dj), points.v[n] = v_of(i + di, j + dj);
+  }
+  return points;
+}
+
+/// Calls visit(points, action) for each particle that owns such a stencil, with what the force does to it.
+template <class X, class V, class Visit>
+void for_each_action(const Preset& preset, const Tears& tears, const Force& force, const Stencil& stencil,
+                     const X& x_of, const V& v_of, const Visit& visit) {
+  for (int i = 0; i < tears.lattice().rows; ++i)
+    for (int j = 0; j < tears.lattice().columns; ++j) {
+      if (!stencil.acts(tears, i, j)) continue;
+      const Points points = points_of(stencil, i, j, x_of, v_of);
+      ForceAction action;
+      force.act(preset, stencil, points, action);
+      visit(points, action);
+    }
+}
+
 /// What a force with a potential φ(|d|) does: -w·factor·d on each point.
 inline void act_along_d(decltype(Force::potential) potential, const Preset& preset, const Stencil& stencil,
                         const Points& points, ForceAction& action) {
@@ -134,6 +162,14 @@ inline double sum_of(double (*Force::*bound)(const Preset&), const Preset& prese
   double sum = 0;
   for (const Force* force : force::all)
     if (force->potential != nullptr && force->on(preset)) sum += (force->*bound)(preset);
+  return sum;
+}
+
+/// Such a sum over the forces that are linear in positions alone.
+inline double linear_sum_of(double (*Force::*bound)(const Preset&), const Preset& preset) {
+  double sum = 0;
+  for (const Force* force : force::all)
+    if (force->linear != nullptr && force->on(preset)) sum += (force->*bound)(preset);
   return sum;
 }
 

@@ -24,11 +24,9 @@ void for_each_action(const Preset& p, const Tears& tears, const Look& look, int 
     for (std::size_t own = 0; own < std::size_t(stencil.points); ++own) {
       const int oi = i - stencil.at[own].di, oj = j - stencil.at[own].dj;
       if (!tears.lattice().contains(oi, oj) || !stencil.acts(tears, oi, oj)) continue;
-      Points points;
-      for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) {
-        const int pi = oi + stencil.at[n].di, pj = oj + stencil.at[n].dj;
-        points.x[n] = look.x(pi, pj), points.v[n] = look.v(pi, pj);
-      }
+      const Points points = points_of(
+          stencil, oi, oj, [&](int pi, int pj) { return look.x(pi, pj); },
+          [&](int pi, int pj) { return look.v(pi, pj); });
       ForceAction action;
       force.act(p, stencil, points, action);
       visit(force, stencil, oi, oj, points, action, own);

@@ -16,7 +16,7 @@ namespace {
 using enum Scale;
 using enum Effect;
 
-const std::array<PresetRow, 25> rows{{
+const auto rows = std::to_array<PresetRow>({
     {"cloth", "rows", "R", "Rows of particles", "Partikelrader", "", &Preset::rows, 2, 4096, logarithmic, rebuild, "",
      "Particles from top to bottom; a change rebuilds the cloth.", false, Kind::cloth, true},
     {"cloth", "columns", "C", "Columns of particles", "Partikelkolumner", "", &Preset::columns, 1, 4096, logarithmic,
@@ -43,6 +43,11 @@ const std::array<PresetRow, 25> rows{{
      Kind::cloth, true},
     {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
      logarithmic, force, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
+    {"forces", "B", "B", "Bending rigidity", "Böjstyvhet", "N m", &Preset::B, 0, 1e3, logarithmic, force, "",
+     "Moment that bends a strip of width 1 m to the curvature 1/m; 0 leaves bending to k_b.", true, Kind::cloth, true},
+    {"forces", "twist", "t_B", "Resistance to twist, as a fraction of B's", "Vridning", "", &Preset::twist, 0, 1,
+     linear, force, "", "1: bending is equally stiff in all directions; 0: rows and columns bend on their own.", false,
+     Kind::cloth, true},
     {"forces", "k_d", "k_d", "Damping constant", "Fjäderkonstant dämpning", "N s/m", &Preset::k_d, 0, 1e6, logarithmic,
      force, "2.6", "Resistance to relative motion along stretch springs: from denim (low) to rubber mat (high)."},
     {"forces", "k", "k", "Spring constant of the mass on a spring", "Fjäderkonstant", "N/m", &Preset::k, 0, 1e9,
@@ -80,9 +85,9 @@ const std::array<PresetRow, 25> rows{{
      "1 triangles, 2 connections, 3 both, 4 outlines, 5 points."},
     {"view", "texture", "", "Texture", "Textur", "", &Preset::texture, 0, 0, linear, texture, "",
      "A shipped texture's name or a PNG, JPEG, BMP or TGA file."},
-}};
+});
 
-const std::array<BodyRow, 5> body_rows{{
+const auto body_rows = std::to_array<BodyRow>({
     {"bodies", "c", "c", "Center of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, bodies, "2.9",
      "Position of the sphere."},
     {"bodies", "r", "r", "Radius of a sphere", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, bodies, "2.9",
@@ -93,21 +98,24 @@ const std::array<BodyRow, 5> body_rows{{
      "Coulomb's coefficient: tangential velocity lost per normal velocity lost."},
     {"bodies", "restitution", "e", "Restitution", "Studskoefficient", "", &Body::restitution, 0, 1, linear, bodies, "",
      "0: the inward velocity is removed; 1: it is reversed."},
-}};
+});
 
-const std::array<Variable, 11> variable_rows{{
+const auto variable_rows = std::to_array<Variable>({
     {"F", "F", "Total force", "Total kraft", "N", "2.2", "All forces on the particle."},
     {"F_s", "F_s", "Stretching force", "Töjningskraft", "N", "2.5", "Sum over the eight stretch springs."},
     {"F_b", "F_b", "Bending force", "Böjningskraft", "N", "2.7", "Sum over the four bending springs."},
+    {"F_B", "F_B", "Force of the bending rigidity", "Böjstyvhetens kraft", "N", "",
+     "Resistance to curvature along rows and columns and to twist."},
     {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
     {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downward."},
     {"F_wind", "F_wind", "Wind force", "Vindkraft", "N", "2.16", "Sum over the triangles at the particle."},
-    {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2", "Forces between particles: F_s + F_b + F_d."},
+    {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2",
+     "Forces between particles: F_s + F_b + F_B + F_d."},
     {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind and the hand."},
     {"x", "x", "Position", "Position", "m", "2.4", "Position of the particle."},
     {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Velocity of the particle, at the time of its position."},
     {"a", "x''", "Acceleration", "Acceleration", "m/s²", "2.1", "F/m; 0 for a pinned particle."},
-}};
+});
 
 /// Capitals count as small letters.
 int edit_distance(std::string_view a, std::string_view b) {
@@ -168,7 +176,7 @@ std::span<const PresetRow> notation() {
 std::span<const Heading> headings() {
   static const std::array<Heading, 6> list{{
       {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
-      {"Springs", "forces", {"k_s", "k_b", "k_d", "k"}},
+      {"Springs", "forces", {"k_s", "k_b", "B", "twist", "k_d", "k"}},
       {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
       {"Tearing", "tearing", {"F_max", "F_release"}},
       {"Cloth", "cloth", {"rows", "columns", "L", "m"}},

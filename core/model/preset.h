@@ -58,6 +58,8 @@ struct Preset {
   // forces
   double k_s = 50;
   double k_b = 5;
+  double B = 0;      ///< N·m
+  double twist = 1;  ///< 0 to 1
   double k_d = 0.002;
   double k = 50;  ///< a mass on a spring only
   double g = 9.82;

@@ -45,6 +45,8 @@ std::vector<SkipFeature> skip_features(int side) {
   };
   const auto plain = [](Preset&) {};
   add("bending", "k_b = 5 N/m, as in the default cloth", 0, plain, [](Preset& p) { p.k_b = 0; });
+  add(
+      "rigidity", "B = 10 µN·m, twist = 1", 0, [](Preset& p) { p.B = 1e-5; }, plain);
   add("damping", "k_d = 0.002 Ns/m, as in the default cloth", 0, plain, [](Preset& p) { p.k_d = 0; });
   add(
       "wind", "on every triangle", 0,

@@ -245,7 +245,9 @@ TEST_CASE("what is claimed of a step holds of the state that is kept, and says w
         const bool single = precision == Precision::float_;
         const double read = single ? 2e-4 : slack;
         CHECK(most <= 1.25 * solves.worst_residual + read);
-        if (preset.integrator != "tr_bdf2") CHECK(most >= solves.worst_residual / 1.25 - read);  // it has two stages
+        // TR-BDF2 has two stages; and in float at 10⁷ N/m, computing a force rounds it by as much as is left.
+        if (preset.integrator != "tr_bdf2" && !(single && k_s >= 1e7))
+          CHECK(most >= solves.worst_residual / 1.25 - read);
         CHECK((solves.unconverged == 0) == (solves.worst_residual <= (single ? most_excused + 1e-4 : 1e-6)));
         if (counts_passes(scheme(method))) continue;
         if (!single && k_s <= 1e5) CHECK(solves.unconverged == 0);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/engines/plain/plain_cloth.h"
+#include "core/forces/linear_springs.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
@@ -17,6 +18,7 @@ namespace tyglab::force_test {
 Preset everything(int rows, int columns) {
   Preset preset = test::cloth(rows, columns);
   preset.W = {0.003, 0.001, -0.002};
+  preset.B = 2 * preset.L * preset.L, preset.twist = 0.7;
   return preset;
 }
 
@@ -92,6 +94,92 @@ TEST_CASE("a potential's gradient and Hessian are those of its energy, within it
       CHECK(curve <= k * (1 + 1e-3));
     }
   });
+}
+
+TEST_CASE("forces that are linear in positions are those of their springs, torn or not") {
+  Random random;
+  const Preset preset = everything(9, 8);
+  const Lattice lattice = lattice_of(preset);
+  Tears tears(lattice);
+  LinearSprings<double> springs, anew;
+  std::mt19937 choose(2);
+  for (int round = 0; round < 30; ++round) {
+    if (round > 0)
+      for (int n = 0; n < 3; ++n)
+        if (const int d = int(choose() % 4), i = int(choose() % 9), j = int(choose() % 8); lattice.has_spring(d, i, j))
+          tears.tear(d, i, j);
+    if (round == 20) tears = Tears(lattice);  // mended
+    CAPTURE(round);
+    const int stride = 8;
+    springs.follow(preset, tears, stride), anew = {}, anew.follow(preset, tears, stride);
+    plain::Vector x(std::size_t(lattice.size()));
+    for (glm::dvec3& one : x) one = random.vector(1);
+    Preset alone = preset;
+    alone.k_s = alone.k_b = alone.k_d = alone.g = 0, alone.W = glm::dvec3(0);
+    plain::Vector wanted = plain::forces(alone, tears, x, x);
+    for (int i = 0; i < lattice.rows; ++i)
+      for (int j = 0; j < lattice.columns; ++j)
+        for (int d = 0; d < int(directions.size()); ++d) {
+          if (!lattice.has_spring(d, i, j)) continue;
+          const double constant = springs.at(d, i, j);
+          CHECK(constant == anew.at(d, i, j));
+          if (!tears.whole(d, i, j)) CHECK(constant == 0);
+          const std::size_t p = std::size_t(i * lattice.columns + j),
+                            q = std::size_t((i + directions[std::size_t(d)].di) * lattice.columns + j +
+                                            directions[std::size_t(d)].dj);
+          wanted[p] -= constant * (x[q] - x[p]), wanted[q] += constant * (x[q] - x[p]);
+        }
+    for (const glm::dvec3& left : wanted) CHECK(glm::length(left) < 1e-12 * 60);
+  }
+}
+
+TEST_CASE("implicit methods solve for forces that are linear in positions") {
+  // A crumpled cloth that B dominates; the equations of implicit Euler's step by the plain forces.
+  for (const double stiffer : {0.0, 1.0, 300.0})
+    for (const bool torn : {false, true}) {
+      Preset preset = everything(12, 10);
+      preset.W = glm::dvec3(0), preset.k_d = 0, preset.dt = 2e-3, preset.integrator = "implicit_euler";
+      preset.k_s *= stiffer, preset.B *= 20, preset.iterations = 100, preset.k_b = 0;
+      const State start = test::crumpled(preset, 3, 0.3, 0.2);
+      CAPTURE(stiffer);
+      CAPTURE(torn);
+      const auto stepped = [&](const char* method, int iterations) {
+        Preset other = preset;
+        other.integrator = method, other.iterations = iterations;
+        Simulation simulation(other);
+        test::load(simulation, start);
+        if (torn) simulation.apply(edit::Cut{{{5, 4}, {6, 4}}});
+        simulation.advance(1);
+        const Tears tears = simulation.tears();
+        return std::pair(simulation.read(), tears);
+      };
+      const auto [state, tears] = stepped("implicit_euler", 100);
+      plain::Vector x(state.x.x.size()), v(x.size());
+      for (std::size_t p = 0; p < x.size(); ++p) x[p] = test::position(state, p), v[p] = test::velocity(state, p);
+      const plain::Vector F = plain::forces(preset, tears, x, v);
+      const auto pinned = pinned_particles(preset);
+      double left = 0, most = 0;
+      for (std::size_t p = 0; p < x.size(); ++p) {
+        if (pinned[p] != 0) continue;
+        const glm::dvec3 change = v[p] - test::velocity(start, p);
+        left = std::max(left, glm::length(change - preset.dt / preset.m * F[p]));
+        most = std::max(most, glm::length(change));
+      }
+      CHECK(left < 2e-3 * most);
+      // projective_dynamics needs many more passes where springs are stiff, with and without B; and xpbd keeps the
+      // directions that springs had when it moved their ends.
+      std::vector<const char*> others{"vbd"};
+      if (stiffer <= 1) others.push_back("projective_dynamics");
+      if (stiffer == 0) others.push_back("xpbd");
+      for (const char* method : others) {
+        CAPTURE(std::string(method));
+        const State other = stepped(method, 1000).first;
+        double apart = 0;
+        for (std::size_t p = 0; p < x.size(); ++p)
+          apart = std::max(apart, glm::distance(test::position(other, p), x[p]));
+        CHECK(apart < 2e-3 * most * preset.dt);
+      }
+    }
 }
 
 TEST_CASE("no motion of all particles stiffens a force beyond its largest eigenvalue") {

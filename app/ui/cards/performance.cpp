@@ -47,6 +47,7 @@ constexpr Feature features[] = {
     {"all steps", "Time for the motion, including the features below, down to the ledger.",
      [](const Ui&) { return true; }, Spent::frame, Part::simulate},
     {"bending", "Springs to every second particle: on if k_b > 0.", nullptr, Spent::step},
+    {"rigidity", "Constants of springs that B and twist change: on if B > 0.", nullptr, Spent::step},
     {"damping", "On if k_d > 0.", nullptr, Spent::step},
     {"wind", "On if W is not 0.", nullptr, Spent::step},
     {"bodies", "Collision with spheres and planes.", nullptr, Spent::step},

@@ -27,7 +27,7 @@ double blow_up_span(const Ui& ui, double length, double unseen) {
 const char* why_empty(const Ui& ui) {
   if (ui.session.simulation->divergence()) return "Restart to see curves";
   if (ui.session.pacing.playing) return "Waiting for the first step";
-  return ui.input.by_touch ? "Tap Run at the top" : "Press Space to run";
+  return ui.input.by_touch ? "Tap the triangle (Run) at the top" : "Press Space to run";
 }
 
 namespace {

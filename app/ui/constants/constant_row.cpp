@@ -149,12 +149,16 @@ void row_tooltip(Ui& ui, const Line& line) {
   wrapped(ui, facts, c.quiet);
   if (const auto& limits = ui.session.studies.stability.limits())
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);
-  if (line.effect == Effect::start) wrapped(ui, "Takes effect at the next restart (R).", c.warning);
+  if (line.effect == Effect::start)
+    wrapped(ui, ui.input.by_touch ? "Takes effect at the next restart." : "Takes effect at the next restart (R).",
+            c.warning);
   ImGui::PushFont(ui.fonts.small);
   wrapped(ui,
-          line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
-                               : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
-                                 "slider to reset. Right-click for more.",
+          ui.input.by_touch      ? line.components == 3 ? "Draw a number sideways, or tap it to type."
+                                                        : "Draw along the slider, or tap the number to type."
+          : line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
+                                 : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
+                                   "slider to reset. Right-click for more.",
           c.quiet);
   ImGui::PopFont();
   end_tooltip(ui);

@@ -35,7 +35,7 @@ constexpr Entry finger_entries[] = {
     {"One finger, cutting", "cuts: Menu, Cloth, Cut with one finger"},
     {"Tap, or hold still", "picks a particle: its forces are shown"},
     {"Two fingers", "orbit; apart or together zooms"},
-    {"Two taps on a number", "types a value"},
+    {"A tap on a number", "types a value"},
 };
 constexpr Entry sliders[] = {
     {"Drag · Shift drag", "changes · ten times finer"},

@@ -14,7 +14,7 @@ namespace tyglab {
 namespace {
 
 struct Stop {
-  const char *title, *text;
+  const char *title, *text, *for_touch;
   Tour::Place (*place)(const Ui&);
 };
 
@@ -41,24 +41,39 @@ constexpr std::array<Stop, 5> stops{
     {{"Grab the cloth",
       "Drag with the right button: the particle under the pointer follows your hand. Drag with the left button to cut "
       "the cloth. Ctrl and the left button orbit the view, and the wheel zooms.",
+      "One finger on the cloth grabs it, and two turn and zoom the view. The menu switches one finger to cutting, and "
+      "has "
+      "Undo.",
       cloth_place},
      {"The constants",
       "Every constant of the model has a slider; double-click its number to type one. The strip under a slider shows "
       "where the chosen method is stable in any shape of the cloth (green), where stability depends on the shape "
       "(amber, dashed), and where the method is unstable in every shape (red, hatched).",
+      "Every constant of the model has a slider; tap its number to type one. The strip under a slider shows where the "
+      "chosen method is stable in any shape of the cloth (green), where stability depends on the shape (amber, "
+      "dashed), "
+      "and where the method is unstable in every shape (red, hatched).",
       constants_place},
      {"Run, step, restart",
       "Space runs and pauses. → makes one step of dt, and R restarts with the present constants. When a motion "
       "explodes, a banner says why and what to do.",
+      "The triangle runs and pauses, the arrow beside it makes one step of dt, and the round arrow restarts with the "
+      "present constants. When a motion explodes, a banner says why and what to do.",
       transport_place},
      {"What happens inside",
       "Curves show the forces on the picked particle; a right click picks another one. Below are cards for copies with "
       "other settings, stability, accuracy, energy and cost; click a heading to open one. M maps the stable values of "
       "k_s and dt, and I shows a step in formulas.",
+      "Curves show the forces on the picked particle; a tap picks another one. Below are cards for copies with other "
+      "settings, stability, accuracy, energy and cost; tap a heading to open one. The menu has a map of the stable "
+      "values "
+      "of k_s and dt, and a step in formulas.",
       plots_place},
      {"Labs",
       "A lab asks you to predict, lets you experiment, and checks the result. Begin with Hooke's law. Ctrl+P finds "
       "everything by name, and F1 lists the keys and restarts this tour.",
+      "A lab asks you to predict, lets you experiment, and checks the result. Begin with Hooke's law. The menu finds "
+      "everything by name, and its help restarts this tour.",
       labs_place}}};
 
 bool visible(const Tour::Place& place) {
@@ -107,7 +122,7 @@ void tour_contents(Ui& ui) {
   ImGui::PushFont(ui.fonts.brand);
   wrapped(ui, stop.title, c.text);
   ImGui::PopFont();
-  wrapped(ui, stop.text, c.text);
+  wrapped(ui, ui.input.by_touch ? stop.for_touch : stop.text, c.text);
   const std::string paused = "The motion is paused: Space runs it.";
   if (card == 0 && !ui.session.pacing.playing) wrapped(ui, ui.input.by_touch ? for_fingers(paused) : paused, c.text);
   ImGui::Dummy({0, ui.theme.px(2)});

@@ -212,7 +212,11 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   if (again && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) gui::select_all_text();
   // Enter counts once the text field has been shown all that was typed before it.
   const bool ended = (state.commit || state.cancel) && !ui.input.unread;
-  const bool over = ended || (!state.typing_starts && !ImGui::IsItemActive());
+  // A finger on the cloth or beside it is no click that Dear ImGui sees.
+  bool elsewhere = false;
+  for (int button = 0; ui.input.by_touch && !state.typing_starts && button < ImGuiMouseButton_COUNT; ++button)
+    elsewhere |= ImGui::IsMouseClicked(button) && !ImGui::IsItemHovered();
+  const bool over = ended || elsewhere || (!state.typing_starts && !ImGui::IsItemActive());
   if (!over) return;
   const unsigned field = std::exchange(state.typing, 0);
   // Who leaves what was refused gives it up.

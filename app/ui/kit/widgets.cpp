@@ -159,6 +159,20 @@ SegmentPlaces segment_places(const UiContext& ui, const char* const* labels, int
 }  // namespace
 
 bool tooltip_due(UiContext& ui, ImGuiID id) {
+  // A finger asks by resting there; once it is lifted nobody points.
+  if (ui.input.by_touch) {
+    constexpr float rests = 0.6f;  // s
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    const bool moved = ImGui::IsMouseDragging(ImGuiMouseButton_Left);
+    if (ui.covered || !held || moved || ui.slider.typing != 0 ||
+        !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+      return false;
+    ui.hover_seen = true, ui.hovered = id;
+    const float left = rests - io.MouseDownDuration[ImGuiMouseButton_Left];
+    if (left > 0) ui.draw_by = std::min(ui.draw_by, ui.now + double(left) + 0.01);
+    return left <= 0;
+  }
   // What cannot be chosen says why.
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
   if (ui.covered) return false;
@@ -220,8 +234,8 @@ void wrapped(UiContext& ui, std::string_view text, ImU32 color) {
 void tooltip(UiContext& ui, ImGuiID id, std::string_view text, std::string_view keys) {
   if (!tooltip_due(ui, id)) return;
   begin_tooltip(ui);
-  wrapped(ui, text, ui.theme.colors.text);
-  if (!keys.empty()) {
+  wrapped(ui, ui.input.by_touch ? for_fingers(text) : std::string(text), ui.theme.colors.text);
+  if (!keys.empty() && !ui.input.by_touch) {
     ImGui::PushFont(ui.fonts.small);
     wrapped(ui, keys, ui.theme.colors.quiet);
     ImGui::PopFont();

@@ -17,6 +17,7 @@
 #include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
 #include "core/forces/force.h"
+#include "core/forces/linear_springs.h"
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 #include "core/simd/row_field.h"
@@ -59,7 +60,7 @@ struct ResolvedSweep {
 /// The features of the pair sweep that a scene needs.
 inline unsigned features_of(const Preset& preset) {
   return (force::bend.on(preset) ? bending : 0u) | (force::damping.on(preset) ? damping : 0u) |
-         (force::wind.on(preset) ? wind : 0u);
+         (force::wind.on(preset) ? wind : 0u) | (LinearSprings<double>::exist(preset) ? linear : 0u);
 }
 
 /// What all bands share: the arrays and the scene.
@@ -72,6 +73,7 @@ struct Cloth {
   Lattice lattice;
   int stride = 0;
   PairSweeps<R> sweeps;
+  LinearSprings<R> springs;  ///< of forces that are linear in positions
   unsigned features = 0;
   bool keeps_displacement = false;
   bool notes_contacts = false;   ///< whether bands record what bodies stop

@@ -33,7 +33,7 @@ void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double 
   assert(h > 0 && p.m > 0 && p.L > 0);
   assert(rows_ == 0 || (rows_ == cloth.lattice.rows && columns_ == cloth.lattice.columns));
   const auto [stretch, bend] = spring_constants(p);
-  constants_ = {h * h * stretch / p.m, h * h * bend / p.m, h * p.k_d / p.m, p.L};
+  constants_ = {h * h * stretch / p.m, h * h * bend / p.m, h * p.k_d / p.m, p.L, h * h / p.m};
   h_ = h, gravity_ = p.g;
   if (rows_ == 0) {
     const int longest = (cloth.lattice.columns + colors - 1) / colors;
@@ -46,20 +46,24 @@ void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double 
     piece_of_.assign(std::size_t(cloth.lattice.rows) * std::size_t(columns_), of_none);
     rows_ = cloth.lattice.rows;  // now that all of the memory is there
   }
-  if (!changed && pieces_known_) return;
+  if (!changed && pieces_known_ && springs_ == cloth.springs.version()) return;
   pieces_known_ = false;
   make_masks(cloth, tears), find_pieces(cloth, tears);
-  pieces_known_ = true;
+  pieces_known_ = true, springs_ = cloth.springs.version();
 }
 
 template <class R>
 void BlockDescent<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
+  linear_.assign(cloth.springs.empty() ? 0 : whole_.size(), R(0));
   for (int i = 0; i < rows_; ++i)
     for (int j = 0; j < columns_; ++j) {
       const bool fixed = !cloth.fixed.empty() && cloth.fixed[std::size_t(i) * columns_ + j] != 0;
       free_[std::size_t(i * component() + place(j))] = fixed ? R(0) : R(1);
-      for (int d = 0; d < int(directions.size()); ++d)
-        whole_[mask_at(i, d, j)] = R(cloth.lattice.has_spring(d, i, j) && tears.whole(d, i, j) ? 1 : 0);
+      for (int d = 0; d < int(directions.size()); ++d) {
+        const bool whole = cloth.lattice.has_spring(d, i, j) && tears.whole(d, i, j);
+        whole_[mask_at(i, d, j)] = R(whole ? 1 : 0);
+        if (!linear_.empty() && whole) linear_[mask_at(i, d, j)] = cloth.springs.at(d, i, j);
+      }
     }
 }
 
@@ -93,7 +97,9 @@ void BlockDescent<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
       const auto look = [&](int d, int owner_i, int owner_j, int to_i, int to_j) {
         if (!cloth.lattice.has_spring(d, owner_i, owner_j) || !tears.whole(d, owner_i, owner_j)) return;
         int& of = piece_of_[std::size_t(to_i) * std::size_t(columns_) + std::size_t(to_j)];
-        if (of == of_fixed) held_.push_back({at(to_i, 0, to_j), at(i, 0, j), rest_of(directions[std::size_t(d)])});
+        if (of == of_fixed)
+          held_.push_back({at(to_i, 0, to_j), at(i, 0, j), rest_of(directions[std::size_t(d)]),
+                           double(cloth.springs.at(d, owner_i, owner_j))});
         if (of == of_none) of = piece, found_.push_back(to_i * columns_ + to_j);
       };
       for (int d = 0; d < int(directions.size()); ++d) {
@@ -116,11 +122,12 @@ double BlockDescent<R>::pull_down(const Held& spring, double fallen) const {
     d[c] = double(c_[spring.fixed + off]) - double(c_[spring.free + off]) + moved[c];
     square += d[c] * d[c];
   }
-  const double length = std::sqrt(square), L = constants_.L;
-  if (spring.rest == 2) return length > 0 && length < 2 * L ? constants_.bend * (2 * L / length - 1) * d[1] : 0;
+  const double length = std::sqrt(square), L = constants_.L, linear = constants_.linear * spring.linear * d[1];
+  if (spring.rest == 2)
+    return length > 0 && length < 2 * L ? constants_.bend * (2 * L / length - 1) * d[1] - linear : -linear;
   const double rest = spring.rest == 1 ? std::numbers::sqrt2 * L : L;
   const double pull = length > rest ? constants_.stretch * (1 - rest / length) * d[1] : 0;
-  return -pull - constants_.damping * moved[1];
+  return -pull - linear - constants_.damping * moved[1];
 }
 
 template <class R>
@@ -160,7 +167,7 @@ void BlockDescent<R>::fall(int begin, int end) {
 
 template <class R>
 std::size_t BlockDescent<R>::bytes() const {
-  return (c_.size() + q_.size() + y_.size() + whole_.size() + free_.size()) * sizeof(R) +
+  return (c_.size() + q_.size() + y_.size() + whole_.size() + linear_.size() + free_.size()) * sizeof(R) +
          (piece_of_.capacity() + found_.capacity()) * sizeof(int) + pieces_.capacity() * sizeof(Piece) +
          held_.capacity() * sizeof(Held);
 }
@@ -186,10 +193,12 @@ void BlockDescent<R>::descend(int i, int part) {
   for (int d = 0; d < int(directions.size()); ++d) {
     const Direction& to = directions[std::size_t(d)];
     const int rest = rest_of(to);
-    row.links[std::size_t(2 * d)] = {std::ptrdiff_t(at(i + to.di, 0, part + to.dj)) - here,
-                                     whole_.data() + mask_at(i, d, part), rest};
-    row.links[std::size_t(2 * d + 1)] = {std::ptrdiff_t(at(i - to.di, 0, part - to.dj)) - here,
-                                         whole_.data() + mask_at(i - to.di, d, part - to.dj), rest};
+    const std::size_t own = mask_at(i, d, part), others = mask_at(i - to.di, d, part - to.dj);
+    const auto linear = [&](std::size_t mask) { return linear_.empty() ? nullptr : linear_.data() + mask; };
+    row.links[std::size_t(2 * d)] = {std::ptrdiff_t(at(i + to.di, 0, part + to.dj)) - here, whole_.data() + own, rest,
+                                     linear(own)};
+    row.links[std::size_t(2 * d + 1)] = {std::ptrdiff_t(at(i - to.di, 0, part - to.dj)) - here, whole_.data() + others,
+                                         rest, linear(others)};
   }
   descend_row(row);
 }

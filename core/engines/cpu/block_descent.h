@@ -8,6 +8,7 @@
 // one color are adjacent in memory, and so are their neighbors in each direction.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/engines/cpu/band.h"
@@ -53,6 +54,7 @@ class BlockDescent {
   struct Held {
     std::size_t fixed, free;  ///< where their x stands in c_ and q_
     int rest;                 ///< as in BlockRow
+    double linear;            ///< constant of LinearSprings
   };
   void make_masks(const Cloth<R>& cloth, const Tears& tears);
   void find_pieces(const Cloth<R>& cloth, const Tears& tears);
@@ -81,8 +83,10 @@ class BlockDescent {
   std::ptrdiff_t part_ = 0;  ///< numbers in a part: zeros, its columns, zeros up to a whole vector
   double h_ = 0, gravity_ = 0;
   BlockConstants constants_{};
-  Array<R> c_, q_, y_;  ///< as in BlockRow
-  Array<R> whole_;      ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
+  Array<R> c_, q_, y_;         ///< as in BlockRow
+  Array<R> whole_;             ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
+  Array<R> linear_;            ///< likewise the constants of LinearSprings; empty if there are none
+  std::uint64_t springs_ = 0;  ///< their version
   Array<R> free_;
   std::vector<int> piece_of_;  ///< of each particle
   std::vector<Piece> pieces_;

@@ -80,7 +80,8 @@ class Blocks {
         kinds_{{row.constants.stretch, row.constants.L, false},
                {row.constants.stretch, row.constants.L * std::numbers::sqrt2, false},
                {row.constants.bend, 2 * row.constants.L, true}},
-        damping_(L::all(row.constants.damping)) {}
+        damping_(L::all(row.constants.damping)),
+        linear_(L::all(row.constants.linear)) {}
 
   HWY_INLINE void descend(int n) const {
     const V c = at(row_.c + n), q = at(row_.q + n), y = at(row_.y + n);
@@ -127,6 +128,12 @@ class Blocks {
       system.above = system.above + k + damped;
       system.energy = multiply_add(L::all(0.5) * damped, dot(moved, moved), system.energy);
     }
+    if (link.linear != nullptr) {
+      const L constant = linear_ * L::load(link.linear + n);
+      system.add(d, constant, constant, L());
+      system.above = system.above + constant;
+      system.energy = multiply_add(L::all(0.5) * L(hn::Abs(constant.v)), square, system.energy);
+    }
   }
   /// By how much the particles' steps raise the energy of their springs to one neighbor.
   HWY_INLINE L change(const Link& link, int n, V c, V q, V step) const {
@@ -138,12 +145,13 @@ class Blocks {
     const L new_strain = kind.strain(after * one_over_root(after));
     L sum = half * kind.k * (new_strain - old_strain) * (new_strain + old_strain);
     if (!kind.bends) sum = sum - damping_ * dot(step, moved - half * step);
+    if (link.linear != nullptr) sum = sum - linear_ * L::load(link.linear + n) * dot(step, d - half * step);
     return hn::IfThenElseZero(hn::Gt(whole.v, hn::Zero(D())), sum.v);
   }
 
   const BlockRow<R>& row_;
   const Kind<D> kinds_[3];
-  const L damping_;
+  const L damping_, linear_;
 };
 
 template <class R>

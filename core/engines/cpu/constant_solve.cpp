@@ -31,7 +31,10 @@ void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
       free_[std::size_t(i) * stride_ + j] = fixed ? R(0) : R(1);
       for (int d = 0; d < int(directions.size()); ++d)
         if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
-          whole_[std::size_t((i + ghost_rows) * pitch + d * width + j)] = R(1);
+          whole_[std::size_t((i + ghost_rows) * pitch + d * width + j)] =
+              weights_differ()
+                  ? R(weights_.of(directions[std::size_t(d)]) + weights_.linear * double(cloth.springs.at(d, i, j)))
+                  : R(1);
     }
 }
 
@@ -48,12 +51,14 @@ void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, Sprin
     columns_ = cloth.lattice.columns, stride_ = cloth.stride, rows_ = cloth.lattice.rows;
     changed = true;
   }
-  if (changed) make_masks(cloth, tears), piece_of_.clear(), way_ = Way::untried;
-  if (weights == weights_ && tolerance == tolerance_) return go_beyond(cloth, tears, beyond);
+  const bool same = weights == weights_ && tolerance == tolerance_, differed = weights_differ();
   weights_ = weights, tolerance_ = tolerance;
+  if (changed || differed || weights_differ()) make_masks(cloth, tears), piece_of_.clear(), way_ = Way::untried;
+  if (same) return go_beyond(cloth, tears, beyond);
   // What no lattice's sums of squared differences exceed, times the squares: 12 along stretch springs, 8 along bending
   // ones. Fewer springs and fixed particles make them less.
   kappa_ = 1 + 12 * weights.stretch + 8 * weights.bending;
+  if (weights_differ()) kappa_ += weights.linear * linear_sum_of(&Force::largest_eigenvalue, cloth.preset);
   products_ = 0, left_ = 0;
   piece_of_.clear(), way_ = Way::untried;
   if (kappa_ == 1) return;
@@ -98,7 +103,7 @@ void ConstantSolver<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
       };
       for (int d = 0; d < int(directions.size()); ++d) {
         const Direction& to = directions[std::size_t(d)];
-        if ((to.bending ? weights_.bending : weights_.stretch) == 0) continue;
+        if (weights_.of(to) == 0 && !weights_differ()) continue;
         look(d, i, j, i + to.di, j + to.dj);
         look(d, i - to.di, j - to.dj, i - to.di, j - to.dj);
       }
@@ -172,7 +177,8 @@ void ConstantSolver<R>::iterate(const Field& r, int begin, int end, double omega
     const Field& before = first ? a_ : b_;
     iterate_row(ConstantRow<R>{a_.row(i + ghost_rows), before.row(i + ghost_rows), r.row(i), b_.row(i + ghost_rows),
                                whole_.data() + (i + ghost_rows) * pitch, free_.data() + std::ptrdiff_t(i) * stride_,
-                               stride_, width, columns_, weights_.stretch, weights_.bending, per_middle, omega});
+                               stride_, width, columns_, weights_differ() ? 1 : weights_.stretch,
+                               weights_differ() ? 1 : weights_.bending, per_middle, omega});
   }
 }
 

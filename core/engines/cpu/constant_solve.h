@@ -50,6 +50,7 @@ class ConstantSolver {
 
  private:
   void make_masks(const Cloth<R>& cloth, const Tears& tears);
+  bool weights_differ() const { return weights_.linear != 0; }
   void iterate(const Field& r, int begin, int end, double omega, bool first);
   bool products_suffice() const { return left_ <= tolerance_ * (1 + 1e-9); }
   void go_beyond(const Cloth<R>& cloth, const Tears& tears, Beyond beyond);
@@ -63,7 +64,8 @@ class ConstantSolver {
   SpringWeights weights_;
   double tolerance_ = 0, kappa_ = 1, left_ = 0;
   int products_ = 0;
-  Array<R> whole_;  ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
+  Array<R> whole_;  ///< for each row its six directions: 1 where the particle owns a whole spring, else 0; β of each
+                    ///< spring where they differ
   Array<R> free_;   ///< 0 for fixed particles and beyond the columns, else 1
   Field a_, b_;     ///< of the iteration, with two rows of zeros above and below
   struct Mean {
@@ -95,7 +97,8 @@ struct ConstantRow {
   const R* free;
   std::ptrdiff_t stride, mask_stride;
   int columns;
-  double stretch, bending, per_middle, omega;
+  double stretch, bending;  ///< β of springs is these times `whole`
+  double per_middle, omega;
 };
 template <class R>
 void iterate_row(const ConstantRow<R>& row);

@@ -199,6 +199,7 @@ void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   const int torn = tears.torn_count();
   if (cloth_.notes_contacts) add_inner_contacts();
   const BatchEnd end = guard_.judge(*this, 1, tears, fault).end;
+  follow_springs(tears);
   if (end != BatchEnd::complete) made_.end = end;
   left_of_dt_ = end == BatchEnd::fault ? 0 : left_of_dt_ - cloth_.dt;
   if (left_of_dt_ <= 0 && made_.end != BatchEnd::fault) ++made_.count;

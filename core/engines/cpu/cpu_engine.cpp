@@ -248,6 +248,7 @@ void CpuEngine<R, Present>::set_synchronized(bool yes) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::start(const Tears& tears) {
+  follow_springs(tears);
   assert(synchronized_ && !scheme_->start.empty());
   // Its a sees v itself, so the sweep's velocity takes no power of dt.
   team_->run([&](int number) {
@@ -371,6 +372,7 @@ void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tear
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
+  follow_springs(tears);
   for (const auto& band : bands()) band->copy_halo(look);
   for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
 }
@@ -474,7 +476,7 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
   std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + constant_.bytes() +
-                      descent_.bytes() + cloth_.fixed.size() + guards_.size() +
+                      descent_.bytes() + cloth_.springs.bytes() + cloth_.fixed.size() + guards_.size() +
                       (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
     for (const auto& band : *list) total += band->bytes();
@@ -496,6 +498,7 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
   const bool cloth = p.kind == Kind::cloth;
   const auto swept = [&](unsigned feature) { return (cloth_.features & feature) != 0; };
   return {{"bending", cloth && swept(bending)},
+          {"rigidity", cloth && swept(linear)},
           {"damping", swept(damping)},
           {"wind", cloth && swept(wind)},
           {"bodies", has(part::bodies) && cloth && !p.bodies.empty()},

@@ -144,6 +144,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
+  /// Takes what forces that are linear in positions make of the springs (linear_springs.h); on one thread, wherever
+  /// tears or the preset may have changed.
+  void follow_springs(const Tears& tears) { cloth_.springs.follow(cloth_.preset, tears, cloth_.stride); }
   /// F/m at two of the vectors. `of_step`: as Band has it.
   void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
   void accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);

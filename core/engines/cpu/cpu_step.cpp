@@ -221,6 +221,7 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
     int left = made_.end == BatchEnd::complete ? steps - made_.count : 0;
     if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = BatchEnd::stopped, left = 0;
     together_ = left > 0 && waves ? steps_in_wave(left) : std::min(left, 1);
+    if (together_ > 0) follow_springs(tears);
     for (Progress& progress : progress_) progress.restart();
   };
   const auto judge = [&] {

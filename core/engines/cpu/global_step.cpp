@@ -17,7 +17,9 @@ bool GlobalStep<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h,
   const Preset& p = cloth.preset;
   assert(h > 0 && p.m > 0);
   const auto [stretch, bend] = spring_constants(p);
-  const SpringWeights weights{(h * h * stretch + h * p.k_d) / p.m, h * h * bend / p.m};
+  const SpringWeights weights{(h * h * stretch + h * p.k_d) / p.m, h * h * bend / p.m,
+                              cloth.springs.empty() ? 0 : h * h / p.m};
+  changed = changed || springs_ != cloth.springs.version();
   if (ready_ && !changed && weights == weights_) return true;
   changed = changed || !ready_;
   ready_ = false;
@@ -26,7 +28,7 @@ bool GlobalStep<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h,
   // A product costs a particle about as much as two elements of the factor.
   factorized_ =
       LatticeFactor<R>::work(lattice_) < most_work && products_.products() > LatticeFactor<R>::band(lattice_) / 2;
-  weights_ = weights;
+  weights_ = weights, springs_ = cloth.springs.version();
   if (factorized_ && !factor_.factorize(cloth, tears, weights, stop)) return false;
   ready_ = true;
   return true;

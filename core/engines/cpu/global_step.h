@@ -5,6 +5,8 @@
 // 3; T. Liu et al., ACM Trans. Graph. 32, 214 (2013).
 #pragma once
 
+#include <cstdint>
+
 #include "core/engines/cpu/constant_solve.h"
 #include "core/engines/cpu/lattice_factor.h"
 
@@ -26,6 +28,7 @@ class GlobalStep {
   Lattice lattice_{0, 0};
   bool ready_ = false, factorized_ = false;
   SpringWeights weights_;
+  std::uint64_t springs_ = 0;  ///< version of the linear ones
   ConstantSolver<R> products_;
   LatticeFactor<R> factor_;
 };

@@ -260,13 +260,16 @@ void ImplicitSolver<R>::linearize_row(int d, int i) {
   // Stored at the lower end of a spring to the lower left, at the owner otherwise.
   const int shift = to.dj == -1 ? 1 : 0, columns = cloth().lattice.columns - std::abs(to.dj);
   const R *upper = x.row(i) + shift, *lower = x.row(i + to.di) + (shift ? 0 : to.dj);
+  const R* linear = cloth().springs.row(i);
+  if (linear != nullptr) linear += d * stride_;
+  const R per = R(dt * dt / p.m);
   R *one = block(i) + shift, *other = block(i + to.di) + (shift ? 0 : to.dj);
   for (int j = 0; j < columns; ++j) {
     if (!task_.tears->whole(d, i, j + shift)) continue;
     const R dx = lower[j] - upper[j], dy = lower[j + stride_] - upper[j + stride_],
             dz = lower[j + 2 * stride_] - upper[j + 2 * stride_];
     const R length = std::sqrt(dx * dx + dy * dy + dz * dz);
-    R t = damped, along = 0;  // along: of a = along · unit vector
+    R t = linear == nullptr ? damped : damped + per * linear[j], along = 0;  // along: of a = along · unit vector
     if (to.bending ? length < rest && length > least : length > rest) {
       // Along the spring k, across it k (1 - rest/length), where that is positive.
       const R across = to.bending ? R(0) : k * (1 - rest / length);

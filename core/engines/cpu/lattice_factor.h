@@ -8,15 +8,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/cloth/lattice.h"
 #include "core/engines/banded.h"
 #include "core/engines/cpu/band.h"
 #include "core/model/preset.h"
 
 namespace tyglab::cpu {
 
-/// β of stretch and of bending springs.
+/// β of stretch and of bending springs, and what the constants of LinearSprings are multiplied by.
 struct SpringWeights {
-  double stretch = 0, bending = 0;
+  double stretch = 0, bending = 0, linear = 0;
+  double of(const Direction& to) const { return to.bending ? bending : stretch; }
   bool operator==(const SpringWeights&) const = default;
 };
 

@@ -135,7 +135,7 @@ class PairSweep {
   }
 
   /// Springs of the particles at x…, one after another: their differences and factors.
-  HWY_INLINE Factors measure(const R* x, Difference (&x_ij)[springs]) const {
+  HWY_INLINE Factors measure(const R* x, const R* constants, Difference (&x_ij)[springs]) const {
     Factors s;
     const R* const below = x + pitch_;
     const V A = load(x), B = load(x + 1);
@@ -147,6 +147,10 @@ class PairSweep {
     if constexpr ((F & bending) != 0) {
       s.two_right = bend_factor(bending_, squared(load(x + 2) - A, x_ij[two_right]));
       s.two_down = bend_factor(bending_, squared(load(below + pitch_) - A, x_ij[two_down]));
+    }
+    if constexpr ((F & linear) != 0) {
+      L* const factors[] = {&s.right, &s.down, &s.diagonal, &s.crossing, &s.two_right, &s.two_down};
+      for (int n = 0; n < springs; ++n) *factors[n] = *factors[n] + L::load(constants + n * stride_);
     }
     return s;
   }
@@ -222,7 +226,7 @@ class PairSweep {
   HWY_INLINE void sweep(int j, R*& x, R*& v, Carries& carries, Reactions& across) {
     Masks<D> m = masked ? masks_of<R, D>(t_, row, j) : Masks<D>{};
     alignas(widest_vector) Difference x_ij[springs];
-    Factors s = measure(x, x_ij);
+    Factors s = measure(x, (F & linear) != 0 ? t_.linear[row] + j : nullptr, x_ij);
     OnTriangles w;
     const M odd = odd_quads<D>(row, j);
     if constexpr ((F & wind) != 0) w = blow<masked>(odd, x_ij, m);
@@ -290,18 +294,19 @@ class PairSweep {
 };
 
 /// The fallbacks of processors from before AVX2 (2013) have all features compiled in; what is off has constants of 0
-/// there. Each would take as long to compile as an instruction set that is used.
+/// there. Each would take as long to compile as an instruction set that is used. For the same reason `linear` brings
+/// bending and damping with it.
 constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSE4;
 
 template <class R, unsigned F, bool displacements>
 void sweep_pair(const PairTask<R>& task) {
-  constexpr unsigned all = feature_sets - 1;
-  if constexpr (fallback && F != all) {
+  constexpr unsigned compiled = F | (fallback ? bending | damping | wind : F & linear ? bending | damping : 0u);
+  if constexpr (F != compiled) {
     PairTask<R> t = task;
     if ((F & bending) == 0) t.bend = 0;
     if ((F & damping) == 0) t.k_d = 0;
     if ((F & wind) == 0) t.W[0] = t.W[1] = t.W[2] = 0;
-    sweep_pair<R, all, displacements>(t);
+    sweep_pair<R, compiled, displacements>(t);
   } else {
     PairSweep<R, F, displacements>(task).run();
   }

@@ -10,7 +10,7 @@
 namespace tyglab::cpu {
 
 /// What a scene needs. A template argument of the sweep, so that what is off costs nothing.
-enum Feature : unsigned { bending = 1, damping = 2, wind = 4, feature_sets = 8 };
+enum Feature : unsigned { bending = 1, damping = 2, wind = 4, linear = 8, feature_sets = 16 };
 
 /// What is done with the force on a row.
 enum class Update : unsigned {
@@ -35,6 +35,7 @@ struct PairTask {
   const std::uint8_t* fixed[2];  ///< non-zero at pinned and held particles; nullptr: none in that row. f[0], f[1] then
                                  ///< keep the force on them
   double L, stretch, bend, k_d;  ///< k_d divided by dt where v holds displacements
+  const R* linear[2];            ///< of the two rows, as in LinearSprings; used with the feature of that name
   double weight;                 ///< m·g, N
   double W[3];
   double v_to_x, force_to_x, force_to_v;

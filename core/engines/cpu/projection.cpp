@@ -22,6 +22,7 @@ void Projector<R>::prepare(const Cloth<R>& cloth, const Tears& tears, bool chang
     rows_ = cloth.lattice.rows, stride_ = cloth.stride;
     changed = true;
   }
+  if (changed || springs_ != cloth.springs.version()) find_stencils(cloth, tears);
   if (!changed) return;
   masked_ = !tears.untorn() || !cloth.fixed.empty();
   if (!masked_) return;
@@ -122,6 +123,54 @@ void Projector<R>::in_colors(int begin, int end, bool bending, Team& team, Work 
 }
 
 template <class R>
+void Projector<R>::find_stencils(const Cloth<R>& cloth, const Tears& tears) {
+  linear_.clear();
+  for_each_stencil(cloth.preset, [&](const Force& force, const Stencil& stencil) {
+    if (force.linear == nullptr) return;
+    LinearColor& color = linear_.emplace_back();
+    color.stencil = &stencil, color.constant = force.linear(cloth.preset, stencil);
+    color.acts.resize(std::size_t(cloth.lattice.size()));
+    color.lambda.resize(3 * color.acts.size());
+    for (int i = 0; i < rows_; ++i)
+      for (int j = 0; j < cloth.lattice.columns; ++j)
+        color.acts[std::size_t(i * cloth.lattice.columns + j)] = stencil.acts(tears, i, j);
+  });
+  springs_ = cloth.springs.version();
+}
+
+/// The stencils of a color that row i owns, from left to right.
+template <class R>
+void Projector<R>::project_stencils(Cloth<R>& cloth, int q, LinearColor& color, int i) {
+  const int columns = cloth.lattice.columns, points = color.stencil->points;
+  const R compliance = R(cloth.preset.m / (color.constant * cloth.dt * cloth.dt));
+  if (!(compliance < R(softest))) return;
+  for (int j = 0; j < columns; ++j) {
+    const std::size_t owner = std::size_t(i * columns + j);
+    if (color.acts[owner] == 0) continue;
+    R free[Stencil::most_points], squares = compliance;
+    for (int n = 0; n < points; ++n) {
+      const auto& [di, dj, weight] = color.stencil->at[std::size_t(n)];
+      const bool moves = cloth.fixed.empty() || cloth.fixed[std::size_t((i + di) * columns + j + dj)] == 0;
+      free[n] = moves ? R(weight) : R(0), squares += free[n] * free[n];
+    }
+    for (int c = 0; c < 3; ++c) {
+      R& lambda = color.lambda[3 * owner + std::size_t(c)];
+      R lacking = compliance * lambda;
+      for (int n = 0; n < points; ++n) {
+        const auto& [di, dj, weight] = color.stencil->at[std::size_t(n)];
+        lacking += R(weight) * (cloth.row(vector_x, i + di, c)[j + dj] + cloth.row(q, i + di, c)[j + dj]);
+      }
+      const R by = -lacking / squares;
+      lambda += by;
+      for (int n = 0; n < points; ++n) {
+        const auto& [di, dj, weight] = color.stencil->at[std::size_t(n)];
+        cloth.row(q, i + di, c)[j + dj] += free[n] * by;
+      }
+    }
+  }
+}
+
+template <class R>
 void Projector<R>::project_weight(Cloth<R>& cloth, int q) {
   const Preset& p = cloth.preset;
   // One spring, linear: a single step of Gauss-Seidel solves it.
@@ -151,6 +200,10 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
   }
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
+  for (LinearColor& color : linear_) {
+    const std::ptrdiff_t columns = 3 * cloth.lattice.columns;
+    std::fill(color.lambda.begin() + begin * columns, color.lambda.begin() + end * columns, R(0));
+  }
   for (int n = 0; n < cloth.preset.iterations; ++n) {
     // Read by all after the barriers of this iteration, and written again after those of the next.
     bool& stopped = stopped_[n % 2];
@@ -158,6 +211,17 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
     in_colors(begin, end, force::bend.on(p), team, [&](const Color& color, int i) {
       project_color(cloth, q, color, i, of_direction[std::size_t(color.direction)]);
     });
+    for (LinearColor& color : linear_) {
+      // Rows that share no particle at a time.
+      int rows = 1;
+      for (int point = 0; point < color.stencil->points; ++point)
+        rows = std::max(rows, color.stencil->at[std::size_t(point)].di + 1);
+      for (int first = 0; first < rows; ++first) {
+        for (int i = begin; i < end; ++i)
+          if (i % rows == first) project_stencils(cloth, q, color, i);
+        team.barrier();
+      }
+    }
     if (stopped) return false;
   }
   return true;
@@ -180,7 +244,8 @@ void Projector<R>::damp(Cloth<R>& cloth, int begin, int end, Team& team) {
 
 template <class R>
 std::size_t Projector<R>::bytes() const {
-  return (lambda_.size() + free_.size() + whole_.size()) * sizeof(R) + row_free_.size() + row_whole_.size();
+  return (lambda_.size() + free_.size() + whole_.size()) * sizeof(R) + row_free_.size() + row_whole_.size() +
+         linear_.size() * rows_ * stride_ * (1 + 3 * sizeof(R));
 }
 
 template class Projector<float>;

@@ -10,6 +10,7 @@
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/projection_rows.h"
 #include "core/engines/cpu/team.h"
+#include "core/forces/force.h"
 #include "core/integrators/stabilized.h"
 
 namespace tyglab::cpu {
@@ -48,13 +49,25 @@ class Projector {
   template <class Work>
   static void in_colors(int begin, int end, bool bending, Team& team, Work work);
 
+  /// Of a force that is linear in positions: Σ w x of each of its stencils is projected on 0.
+  struct LinearColor {
+    const Stencil* stencil;
+    double constant;                 ///< N/m
+    std::vector<std::uint8_t> acts;  ///< at the owner's i·columns + j
+    Array<R> lambda;                 ///< likewise, times dt²/m: three components, m
+  };
+  void find_stencils(const Cloth<R>& cloth, const Tears& tears);
+  void project_stencils(Cloth<R>& cloth, int q, LinearColor& color, int i);
+
   static constexpr int lambdas = 8;
   int rows_ = 0, stride_ = 0;
   Array<R> lambda_;                   ///< row by row, in each color by color
   bool stopped_[2] = {false, false};  ///< in iterations of even and odd number
   bool masked_ = false;
-  Array<R> free_;   ///< of particles
-  Array<R> whole_;  ///< row by row, in each direction by direction
+  std::vector<LinearColor> linear_;
+  std::uint64_t springs_ = 0;  ///< version of LinearSprings
+  Array<R> free_;              ///< of particles
+  Array<R> whole_;             ///< row by row, in each direction by direction
   // Rows in which nothing is pinned, held or torn need not look at either.
   std::vector<std::uint8_t> row_free_, row_whole_;
 };

@@ -116,6 +116,17 @@ HWY_INLINE void store_spring(V a, L t, R* to, std::ptrdiff_t stride) {
   store_as(a.x, to), store_as(a.y, to + stride), store_as(a.z, to + 2 * stride), store_as(t, to + 3 * stride);
 }
 
+/// Adds to numbers in that precision.
+template <class R>
+HWY_INLINE void add_across(L value, R* to) {
+  if constexpr (sizeof(R) == sizeof(double)) {
+    (L::load(to) + value).store(to);
+  } else {
+    constexpr hn::Rebind<float, D> single;
+    store_as(L(hn::PromoteTo(D(), hn::LoadU(single, to))) + value, to);
+  }
+}
+
 template <class R>
 BarrierSums linearize(const BarrierRow& row, double* forces, double* right, R* coefficients, std::ptrdiff_t to) {
   const std::ptrdiff_t stride = row.stride;
@@ -157,6 +168,13 @@ BarrierSums linearize(const BarrierRow& row, double* forces, double* right, R* c
       force = larger(force, L(hn::Neg(push.v)));
     };
     for_each(bend, std::integer_sequence<int, 4, 5>());
+    const auto add_linear = [&](auto d) HWY_ATTR {
+      const L constant = L::load(row.linear + d * stride + j);
+      const V pull = constant * apart<d>(row.x + j, stride);
+      f[d] = f[d] + pull, g[d] = g[d] + pull;
+      add_across(constant, coefficients + (d * spring_parts + 3) * to + j);
+    };
+    if (row.linear != nullptr) for_each(add_linear, std::make_integer_sequence<int, springs_of_a_particle>());
     scatter_forces(f, forces + j, stride), scatter_right(g, right + j, stride);
   }
   return {hn::GetLane(hn::SumOfLanes(D(), products.v)), hn::GetLane(hn::MaxOfLanes(D(), force.v))};

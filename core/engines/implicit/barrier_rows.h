@@ -15,8 +15,9 @@ struct BarrierConstants {
 /// for the four of stretch springs alone; a spring to the lower left is at the column of its lower end.
 struct BarrierRow {
   BarrierConstants constants;
-  const double* whole;  ///< 1 where there is a spring, 0 where there is none
-  const double *x, *c;  ///< row i of positions and of c_x, as in row_field.h; two more follow, zeros behind the last
+  const double* whole;   ///< 1 where there is a spring, 0 where there is none
+  const double* linear;  ///< as in LinearSprings, times h²/m; null: none
+  const double *x, *c;   ///< row i of positions and of c_x, as in row_field.h; two more follow, zeros behind the last
   double *tension, *slack;
   double *d_tension, *d_slack;  ///< of the step
   std::ptrdiff_t stride;

@@ -76,7 +76,7 @@ void InteriorPoint<R>::for_rows(const Work& work) {
 
 template <class R>
 std::size_t InteriorPoint<R>::bytes() const {
-  std::size_t total = coefficients_.size() * sizeof(R) + multigrid_.bytes();
+  std::size_t total = (coefficients_.size() + curving_.size()) * sizeof(R) + multigrid_.bytes();
   for (const Field* field : {&c_, &y_, &x_, &best_, &forces_, &right_, &moved_}) total += field->bytes();
   for (const Array<double>* springs : {&tension_, &slack_, &d_tension_, &d_slack_, &whole_, &free_})
     total += springs->size() * sizeof(double);
@@ -106,6 +106,19 @@ void InteriorPoint<R>::find_whole_springs() {
   }
 }
 
+/// The springs that are nowhere softer than what is linear in positions: those of its constants that pull together.
+template <class R>
+void InteriorPoint<R>::find_curving() {
+  curving_.assign(task_->linear.empty() ? 0 : coefficients_.size(), R(0));
+  const std::ptrdiff_t fast = fast_stride();
+  for (int i = 0; i < lattice_.rows && !curving_.empty(); ++i)
+    for (int d = 0; d < int(directions.size()); ++d) {
+      const double* constants = task_->linear.row(i) + d * std::ptrdiff_t(stride_);
+      R* across = curving_.data() + i * coefficient_pitch(fast) + (d * spring_parts + 3) * fast;
+      for (int j = 0; j < lattice_.columns; ++j) across[j] = R(std::max(constants[j], 0.0));
+    }
+}
+
 template <class R>
 BarrierRow InteriorPoint<R>::row(int i) {
   const int rows = std::min(lattice_.rows, 3);
@@ -115,6 +128,7 @@ BarrierRow InteriorPoint<R>::row(int i) {
   const std::ptrdiff_t at = std::ptrdiff_t(i) * stretch_directions * stride_;
   return {task_->constants,
           whole_.data() + std::ptrdiff_t(pattern) * std::ptrdiff_t(directions.size()) * stride_,
+          task_->linear.row(i),
           x_.row(i),
           c_.row(i),
           tension_.data() + at,
@@ -128,7 +142,7 @@ BarrierRow InteriorPoint<R>::row(int i) {
 template <class R>
 void InteriorPoint<R>::begin() {
   assert(task_->fixed.empty() || task_->fixed.size() >= std::size_t(lattice_.size()));
-  find_whole_springs();
+  find_whole_springs(), find_curving();
   size_ = 0;
   for_rows([&](int i) {
     for (int j = 0; j < lattice_.columns; ++j) {
@@ -169,7 +183,7 @@ double InteriorPoint<R>::linearize() {
 /// The residual that counts as none: the tolerance, or what the last digits of positions in double make of the forces.
 template <class R>
 double InteriorPoint<R>::allowed() const {
-  const double stiffness = std::max(task_->constants.stretch, task_->constants.bend);
+  const double stiffness = std::max(task_->constants.stretch, task_->constants.bend) + task_->linear_stiffness;
   const double digits = 4 * std::numeric_limits<double>::epsilon() * size_ * (1 + stiffness);
   return std::max(task_->tolerance * force_, digits);
 }
@@ -343,7 +357,9 @@ Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
     if (residual_ <= allowed()) return {true, residual_ / force_};
     if (n == most_iterations || !std::isfinite(residual_) || (n > 0 && task.out_of_time(best_balance_.residual))) break;
     task.progress(std::clamp(std::log(first / least) / std::log(first / allowed()), double(n) / most_iterations, 1.0));
-    multigrid_.prepare({coefficients_.data(), 1, task.fixed}, task.stops);
+    multigrid_.prepare({coefficients_.data(), 1, task.fixed, task.linear.empty() ? 2 : Stencil::most_points,
+                        curving_.empty() ? nullptr : curving_.data()},
+                       task.stops);
     ++counts.newton;
     solve_linear(predictor_tolerance, false);
     const BarrierStep predicted = find_step(false, 0);

@@ -22,6 +22,7 @@
 #include "core/engines/implicit/barrier_rows.h"
 #include "core/engines/implicit/crew.h"
 #include "core/engines/implicit/multigrid.h"
+#include "core/forces/linear_springs.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::implicit {
@@ -38,6 +39,8 @@ class InteriorPoint {
     double weight;     ///< weight_scale()
     double tolerance;  ///< of the largest residual, in parts of the largest force
     const Tears* tears;
+    const LinearSprings<double>& linear;  ///< times h²/m, with rows of row_stride<double>()
+    double linear_stiffness;              ///< the most that these resist a particle's motion with
     std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
     /// Adds h² F/m of forces that depend on positions otherwise than by springs, m; may be empty.
     std::function<void(const Field& x, Field& forces)> others;
@@ -67,6 +70,7 @@ class InteriorPoint {
   void for_rows(const Work& work);
   void begin();
   void find_whole_springs();
+  void find_curving();
   BarrierRow row(int i);
   /// The model's residual and the linear system at the present x, unless it stops. Returns Σ tension · slack.
   double linearize();
@@ -101,6 +105,7 @@ class InteriorPoint {
   double last_fall_ = 0, next_fall_ = 0;                             ///< Σ r·z of the last step and of this one
   bool falls_ = false;                                               ///< this step does, as it must
   Array<R> coefficients_;
+  Array<R> curving_;  ///< of the multigrid; empty without forces that are linear in positions
   Multigrid<R> multigrid_;
 };
 

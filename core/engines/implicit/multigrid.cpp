@@ -17,10 +17,11 @@ int coarser(int n) {
 }
 
 /// Chebyshev's iteration for eigenvalues between a tenth of the largest and the largest. On the lattice itself B A has
-/// none above 2, since (x_i - x_j)ᵀ K (x_i - x_j) is at most twice x_iᵀ K x_i + x_jᵀ K x_j; on coarser ones
-/// interpolation leads to at most 2 · 4/3 along a direction in which all springs pull.
-constexpr double largest_eigenvalue(bool finest) {
-  return finest ? 2 : 8.0 / 3;
+/// none above the number of points that one potential joins: of two points, (x_i - x_j)ᵀ K (x_i - x_j) is at most twice
+/// x_iᵀ K x_i + x_jᵀ K x_j. On coarser ones interpolation leads to at most 4/3 of that along a direction in which all
+/// springs pull.
+constexpr double largest_eigenvalue(int points, bool finest) {
+  return finest ? points : 4.0 * points / 3;
 }
 constexpr int rows_between_asking = 64;             // whether to stop
 constexpr double middle = 0.55, half_width = 0.45;  // of that interval, in parts of its upper end
@@ -93,7 +94,7 @@ std::size_t Multigrid<R>::bytes() const {
   for (const Array<R>& row : scratch_) total += row.size() * sizeof(R);
   for (const Array<R>& row : rows_) total += row.size() * sizeof(R);
   for (const Level& level : levels_) {
-    total += (level.blocks.size() + level.inverse.size()) * sizeof(R);
+    total += (level.blocks.size() + level.curving.size() + level.inverse.size()) * sizeof(R);
     for (const Field* field : {&level.given, &level.r, &level.x}) total += field->bytes();
     for (const Part& part : level.parts)
       total += part.d.bytes() + part.q.bytes() + part.r.bytes() + part.unused.size() * sizeof(R);
@@ -107,7 +108,16 @@ void Multigrid<R>::prepare(const SpringMatrix<R>& matrix, const std::function<bo
   assert(matrix.fixed.empty() || matrix.fixed.size() >= std::size_t(levels_[0].rows) * levels_[0].columns);
   matrix_ = matrix;
   prepare_finest(stops);
-  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) coarsen(l, stops);
+  for (std::size_t l = 0; l + 1 < levels_.size() && !stops(); ++l) {
+    coarsen(l, &Level::blocks, stops);
+    if (matrix.curving != nullptr) coarsen(l, &Level::curving, stops);
+  }
+  for (std::size_t l = 1; l < levels_.size() && !stops(); ++l) {
+    Level& at = levels_[l];
+    if (matrix.curving != nullptr) add_curving(l);
+    for (int i = 0; i < at.rows; ++i)
+      invert_blocks_row<R>(at.row(&Level::blocks, i), at.inverse_row(i), at.stride, at.columns);
+  }
   if (levels_.size() > 1 && !stops()) invert_coarsest();
 }
 
@@ -132,26 +142,35 @@ void Multigrid<R>::prepare_finest(const std::function<bool()>& stops) {
   }
 }
 
+/// A level's springs in place of what resists curvature join its operator.
+template <class R>
+void Multigrid<R>::add_curving(std::size_t level) {
+  Level& at = levels_[level];
+  const R part = R(std::pow(0.25, double(level)));
+  for (std::size_t n = 0; n < at.blocks.size(); ++n) at.blocks[n] += part * at.curving[n];
+}
+
 /// Row i of the finest lattice's nine-point operator, in scratch 0 or 1 by turns; of rows in rising order.
 template <class R>
-void Multigrid<R>::build_nine_point_row(int i) {
+void Multigrid<R>::build_nine_point_row(const R* springs, double m, int i) {
   Level& at = levels_[0];
   assert(i >= 0 && i < at.rows);
   R* row = scratch(i % 2);
   if (i == 0)
-    for (int c = 0; c < block_parts; ++c) std::fill_n(row + c * work_stride_, at.columns, c < 3 ? R(matrix_.m) : R(0));
-  const R* coefficients = matrix_.coefficients + i * coefficient_pitch(at.stride);
+    for (int c = 0; c < block_parts; ++c) std::fill_n(row + c * work_stride_, at.columns, c < 3 ? R(m) : R(0));
+  const R* coefficients = springs + i * coefficient_pitch(at.stride);
   const R* free = free_.data() + std::ptrdiff_t(i) * free_stride_;
   nine_point_row<R>({coefficients, i > 0 ? coefficients - coefficient_pitch(at.stride) : nullptr, at.stride, at.columns,
-                     free, free + free_stride_, row, scratch((i + 1) % 2), work_stride_, matrix_.m});
+                     free, free + free_stride_, row, scratch((i + 1) % 2), work_stride_, m});
 }
 
 /// Row i of a level's operator with only the columns of the next level, in one of three scratch rows by turns.
 template <class R>
-const R* Multigrid<R>::next_coarse_columns(std::size_t level, int i) {
+const R* Multigrid<R>::next_coarse_columns(std::size_t level, Array<R> Level::*of, int i) {
   const Level &at = levels_[level], &next = levels_[level + 1];
-  if (level == 0) build_nine_point_row(i);
-  const R* row = level == 0 ? scratch(i % 2) : levels_[level].block_row(i);
+  const bool blocks = of == &Level::blocks;
+  if (level == 0) build_nine_point_row(blocks ? matrix_.coefficients : matrix_.curving, blocks ? matrix_.m : 0, i);
+  const R* row = level == 0 ? scratch(i % 2) : levels_[level].row(of, i);
   const std::ptrdiff_t stride = level == 0 ? work_stride_ : at.stride;
   R* to = scratch(2 + i % 3);
   if (next.columns != at.columns) {
@@ -163,24 +182,25 @@ const R* Multigrid<R>::next_coarse_columns(std::size_t level, int i) {
   return to;
 }
 
+/// Makes an operator of the next level.
 template <class R>
-void Multigrid<R>::coarsen(std::size_t from, const std::function<bool()>& stops) {
+void Multigrid<R>::coarsen(std::size_t from, Array<R> Level::*of, const std::function<bool()>& stops) {
   assert(from + 1 < levels_.size());
   const Level& at = levels_[from];
   Level& next = levels_[from + 1];
+  if ((next.*of).empty()) (next.*of).assign(next.blocks.size(), R(0));
   const R* none = zeros_.data() + Level::lead;
   const R* rows[3] = {none, none, none};  // 2I - 1, 2I, 2I + 1
   for (int I = 0, i = 0; I < next.rows; ++I) {
     if (I % (rows_between_asking / 2) == 0 && stops()) return;
-    const auto following = [&] { return i < at.rows ? next_coarse_columns(from, i++) : none; };
+    const auto following = [&] { return i < at.rows ? next_coarse_columns(from, of, i++) : none; };
     if (next.rows == at.rows) {
-      std::copy_n(following(), next.pitch, next.block_row(I));
+      std::copy_n(following(), next.pitch, next.row(of, I));
     } else {
       rows[0] = rows[2], rows[1] = following(), rows[2] = following();
-      coarsen_rows(rows[0], rows[1], rows[2], next.block_row(I), next.stride, next.columns);
+      coarsen_rows(rows[0], rows[1], rows[2], next.row(of, I), next.stride, next.columns);
     }
     assert(I + 1 < next.rows || i == at.rows);  // no row is left out
-    invert_blocks_row<R>(next.block_row(I), next.inverse_row(I), next.stride, next.columns);
   }
 }
 
@@ -347,7 +367,7 @@ void Multigrid<R>::cycle(std::size_t level, const Field& given, int number) {
   if (number >= int(at.parts.size())) return;
   if (level > 0 && level + 1 == levels_.size()) return solve_coarsest();
   Part& part = at.parts[std::size_t(number)];
-  const double end = largest_eigenvalue(level == 0), theta = middle * end, ratio = half_width / middle;
+  const double end = largest_eigenvalue(matrix_.points, level == 0), theta = middle * end, ratio = half_width / middle;
   const double next_ratio = 1 / (2 / ratio - ratio);
   const Weights first{0, 1 / theta}, second{next_ratio * ratio, 2 * next_ratio / (half_width * end)};
   const RowRange own = part.own;

@@ -2,7 +2,9 @@
 // Each coarser lattice has every other row and column, down to three by three. Positions are interpolated
 // bilinearly between lattices, which also gives the coarser operator (Galerkin's Pᵀ A P). Two Chebyshev iterations
 // with the diagonal blocks smooth before, and two after. The coarser operators derive from a nine-point operator,
-// in which each bending spring is spread over its two halves; the finest lattice uses the exact operator. U.
+// in which each bending spring is spread over its two halves; the finest lattice uses the exact operator. What resists
+// curvature (linear_springs.h) vanishes in that operator: the coarser lattices have springs along rows and columns in
+// its place, a quarter as stiff on each as on the one before, as a stiffness ~ θ⁴ asks for at the lattice's own θ. U.
 // Trottenberg, C. W. Oosterlee, A. Schüller, Multigrid (2001), 2 and 4; M. Adams et al., J. Comput. Phys. 188, 593
 // (2003).
 #pragma once
@@ -31,6 +33,8 @@ struct SpringMatrix {
   const R* coefficients;                ///< rows of stiffness.h
   double m;                             ///< diagonal of A without the springs
   std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
+  int points = 2;                       ///< the most that one potential joins: 2 by a spring
+  const R* curving = nullptr;           ///< likewise rows: the springs in place of what resists curvature; or null
 };
 
 template <class R>
@@ -73,6 +77,7 @@ class Multigrid {
   struct Level {
     int rows = 0, columns = 0, stride = 0;
     Array<R> blocks;   ///< rows of multigrid_rows.h; none of the finest lattice
+    Array<R> curving;  ///< likewise, of the springs in place of what resists curvature; empty if nothing does
     Array<R> inverse;  ///< of the blocks on the diagonal
     Field given;       ///< the residual from which it begins; of the finest lattice, that is the caller's
     Field r;           ///< what is left of it on the way to the coarser level, where several threads share this one
@@ -80,7 +85,7 @@ class Multigrid {
     std::vector<Part> parts;
     const Field& residual() const { return parts.size() == 1 ? parts[0].r : r; }
     const R* block_row(int i) const { return blocks.data() + lead + std::ptrdiff_t(i) * pitch; }
-    R* block_row(int i) { return blocks.data() + lead + std::ptrdiff_t(i) * pitch; }
+    R* row(Array<R> Level::*of, int i) { return (this->*of).data() + lead + std::ptrdiff_t(i) * pitch; }
     const R* inverse_row(int i) const { return inverse.data() + std::ptrdiff_t(i) * 6 * stride; }
     R* inverse_row(int i) { return inverse.data() + std::ptrdiff_t(i) * 6 * stride; }
     std::ptrdiff_t pitch = 0;
@@ -93,9 +98,10 @@ class Multigrid {
   static constexpr int halo = 4;               ///< rows beside a thread's own, two for each product in a phase
   static constexpr int least_rows = 8 * halo;  ///< of a thread, on a level that several share
   void prepare_finest(const std::function<bool()>& stops);
-  void coarsen(std::size_t from, const std::function<bool()>& stops);
-  const R* next_coarse_columns(std::size_t level, int i);
-  void build_nine_point_row(int i);
+  void coarsen(std::size_t from, Array<R> Level::*of, const std::function<bool()>& stops);
+  const R* next_coarse_columns(std::size_t level, Array<R> Level::*of, int i);
+  void build_nine_point_row(const R* coefficients, double m, int i);
+  void add_curving(std::size_t level);
   void invert_coarsest();
   void share_level(Level& level, int size) const;
   void cycle(std::size_t level, const Field& given, int number);

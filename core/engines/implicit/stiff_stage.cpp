@@ -64,6 +64,7 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
   assert(possible(p) && h > 0 && p.m > 0 && task.stride >= task.lattice.columns);
   assert(task.fixed.empty() || task.fixed.size() >= std::size_t(task.lattice.size()));
   if (!solver.resize(task.lattice, task.stops)) return {};
+  linear_.follow(p, task.tears, simd::row_stride<double>(task.lattice.columns), scale);
   const bool begun = for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
     const bool fixed = is_fixed(task, i, j);
     const double from = double(task.c_x[n]), end = from + h * double(task.c_v[n]);
@@ -78,6 +79,8 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
       .weight = weight_scale(p.g, h),
       .tolerance = task.tolerance,
       .tears = &task.tears,
+      .linear = linear_,
+      .linear_stiffness = scale * linear_sum_of(&Force::at_particle, p),
       .fixed = task.fixed,
       .others = {},
       .stops = task.stops,
@@ -95,7 +98,8 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
 
 template <class R>
 Balance StiffStage::solve(const StiffTask<R>& task, SolveCounts& counts) {
-  if (stiffness_of(task.preset, task.h) < very_stiff) {
+  const double linear = linear_sum_of(&Force::at_particle, task.preset) * task.h * task.h / task.preset.m;
+  if (stiffness_of(task.preset, task.h) + linear < very_stiff) {
     if (!single_) single_ = std::make_unique<InteriorPoint<float>>();
     return solve_with(*single_, task, counts);
   }
@@ -129,7 +133,7 @@ Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, Too
 }
 
 std::size_t StiffStage::bytes() const {
-  return (single_ ? single_->bytes() : 0) + (double_ ? double_->bytes() : 0);
+  return linear_.bytes() + (single_ ? single_->bytes() : 0) + (double_ ? double_->bytes() : 0);
 }
 
 template Balance StiffStage::solve(const StiffTask<float>&, SolveCounts&);

@@ -13,6 +13,7 @@
 #include "core/engines/balance.h"
 #include "core/engines/implicit/interior_point.h"
 #include "core/engines/newton.h"
+#include "core/forces/linear_springs.h"
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 
@@ -59,6 +60,7 @@ class StiffStage {
   template <class R, class S>
   Balance solve_with(InteriorPoint<S>& solver, const StiffTask<R>& task, SolveCounts& counts);
 
+  LinearSprings<double> linear_;
   std::unique_ptr<InteriorPoint<float>> single_;
   std::unique_ptr<InteriorPoint<double>> double_;
 };

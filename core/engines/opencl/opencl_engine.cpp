@@ -417,6 +417,10 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
                       "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet");
+  for (const Force* force : force::all)
+    if (force->linear != nullptr && force->on(preset))
+      throw EngineError("The OpenCL engine does not compute " + std::string(force->symbol) + "; use the CPU engine " +
+                        "(--engine cpu), or " + std::string(force->constant(preset)) + " = 0");
   // Where there is no device, open_device() says so.
   if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);
