@@ -46,10 +46,11 @@ StabilityLimits work_out(const Preset& preset, const MotionMark& at, std::option
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
   for (const ZonedConstant& constant : zoned_constants(preset)) {
-    const double usual = Preset{}.*constant.field, now = preset.*constant.field, value = now > 0 ? now : usual;
+    const PresetRow& row = *find_row(constant.key);
+    const double usual = usual_value(row), now = preset.*constant.field, value = now > 0 ? now : usual;
     const double least = std::min(value, usual) / reaches;
     // A slider may have grown for any value that was once typed.
-    const double most = std::max(value * reaches, find_row(constant.key)->max);
+    const double most = std::max(value * reaches, row.max);
     limits.zones.emplace(constant.key, stability_zones(preset, constant.field, least, most, stop));
   }
   if (stop()) return limits;  // nobody waits for it any more

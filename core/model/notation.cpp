@@ -43,8 +43,24 @@ const auto rows = std::to_array<PresetRow>({
      Kind::cloth, true},
     {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
      logarithmic, force, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
-    {"forces", "B", "B", "Bending rigidity", "Böjstyvhet", "N m", &Preset::B, 0, 1e3, logarithmic, force, "",
-     "Moment that bends a strip of width 1 m to the curvature 1/m; 0 leaves bending to k_b.", true, Kind::cloth, true},
+    {"forces",
+     "B",
+     "B",
+     "Bending rigidity",
+     "Böjstyvhet",
+     "N m",
+     &Preset::B,
+     0,
+     1e3,
+     logarithmic,
+     force,
+     "",
+     "Moment that bends a strip of width 1 m to the curvature 1/m; 0 leaves bending to k_b.",
+     true,
+     Kind::cloth,
+     true,
+     {},
+     1e-4},
     {"forces", "twist", "t_B", "Resistance to twist, as a fraction of B's", "Vridning", "", &Preset::twist, 0, 1,
      linear, force, "", "1: bending is equally stiff in all directions; 0: rows and columns bend on their own.", false,
      Kind::cloth, true},
@@ -230,15 +246,16 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   return meant ? "; did you mean " + std::string(*meant) + "?" : otherwise;
 }
 
+double usual_value(const PresetRow& row) {
+  const auto* field = std::get_if<double Preset::*>(&row.field);
+  const double value = field == nullptr ? 0 : Preset{}.**field;
+  return value > 0 ? value : row.usual;
+}
+
 SliderRange slider_range(const PresetRow& row, double preset_value) {
   const double v = std::abs(preset_value);
   if (row.scale == Scale::logarithmic) {
-    // With 0 in the preset there is no value to center on: fall back on the field's default, then on 1.
-    static const Preset defaults{};
-    double center = v;
-    if (center == 0)
-      if (const auto* field = std::get_if<double Preset::*>(&row.field)) center = defaults.**field;
-    if (center == 0) center = 1;
+    const double center = v > 0 ? v : usual_value(row);
     const double low = row.min == 0 ? 0 : std::max(row.min, center / 31.6);
     return {low, std::clamp(center * 31.6, row.min, row.max)};
   }

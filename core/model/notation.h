@@ -40,6 +40,7 @@ struct Row {
   Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
   bool only_one_kind = false;
   EffectSet of_weight = {};  ///< additional effect of a change for the mass on a spring
+  double usual = 1;          ///< a usual value, where the default is 0
 };
 
 using PresetRow = Row<Preset>;
@@ -82,6 +83,8 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 /// "; did you mean rows?" where one is; otherwise that text.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known, const std::string& otherwise);
 
+/// The default of a number, or what is usual where that is 0.
+double usual_value(const PresetRow& row);
 /// Slider range about three decades round `value` (logarithmic) or round the value (linear), inside the allowed range;
 /// starts at 0 where 0 is allowed.
 struct SliderRange {

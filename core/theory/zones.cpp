@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -138,6 +139,7 @@ double every_shape_limit(const Preset& preset) {
 
 std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most,
                                       const Stop& stop) {
+  assert(least > 0 && least < most);
   constexpr int most_borders = 8;  // of a method that rounding lets flicker
   const int samples = std::max(1, int(std::lround(4 * std::log10(most / least))));
   const Judge judge(scheme(preset.integrator));

@@ -29,7 +29,7 @@ bool names_keys_or_mouse(const std::string& text) {
 }
 
 TEST_CASE("in the words of a finger no lab asks for a key or a button of the mouse") {
-  CHECK(for_fingers("Press Space, and let it rest.") == "Tap Run at the top, and let it rest.");
+  CHECK(for_fingers("Press Space, and let it rest.") == "Tap the triangle (Run) at the top, and let it rest.");
   CHECK(for_fingers("Right-click a particle to pick it.") == "Tap a particle to pick it.");
   CHECK(names_keys_or_mouse("Press Space."));
   Session session;

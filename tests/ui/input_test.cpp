@@ -345,4 +345,42 @@ TEST_CASE("a tap on a number opens it with its text selected, and so does a doub
   }
 }
 
+TEST_CASE("a tap beside a number that is typed takes it, on the cloth and on the sky") {
+  test::NullUi window;
+  window.pause();
+  TouchScreen screen(window);
+  const glm::vec2 cloth = window.pixel_of(6, 6), sky = window.ui.viewport.box.lo + glm::vec2(12, 120);
+  for (const glm::vec2 beside : {cloth, sky}) {
+    const bool on_cloth = beside == cloth;
+    CAPTURE(on_cloth);
+    screen.tap(window.middle("constants.k_s.value"));
+    REQUIRE(window.typing());
+    window.add_typed(on_cloth ? "77" : "88");
+    screen.frames(6);
+    screen.tap(beside);
+    screen.frames(4);
+    CHECK_FALSE(window.typing());
+    CHECK(window.preset().k_s == (on_cloth ? 77 : 88));
+    screen.frames(60);
+  }
+}
+
+TEST_CASE("a hint comes to a finger that rests, speaks of fingers, and goes with it") {
+  test::NullUi window;
+  window.pause();
+  TouchScreen screen(window);
+  const glm::vec2 slider = window.along("constants.k_s.slider", 0.5f);
+  screen.tap(window.middle("viewport.views.3"));
+  screen.frames(120);
+  CHECK_FALSE(window.tooltip().has_value());
+  screen.on(1, TouchScreen::Phase::down, slider);
+  screen.frames(120);
+  CHECK(window.tooltip().has_value());
+  CHECK(window.drew("tap the number to type"));
+  CHECK_FALSE(window.drew("Right-click"));
+  screen.on(1, TouchScreen::Phase::up, slider);
+  screen.frames(4);
+  CHECK_FALSE(window.tooltip().has_value());
+}
+
 }  // namespace tyglab::input_test

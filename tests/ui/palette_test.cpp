@@ -154,6 +154,22 @@ TEST_CASE("help has its buttons in sight in a small window, and its last line is
   }
 }
 
+TEST_CASE("on a touch screen the tour speaks of fingers alone") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.tour_seen = false; }});
+  window.input.by_touch = true;
+  start_tour(window.ui);
+  for (int card = 0; card < 5; ++card) {
+    CAPTURE(card);
+    window.frames(4);
+    REQUIRE(window.ui.tour.card == card);
+    for (const char* word : {"button", "click", "Ctrl", "Space", "wheel"}) {
+      CAPTURE(std::string(word));
+      CHECK_FALSE(window.drew(word));
+    }
+    if (card < 4) window.click("tour.Next");
+  }
+}
+
 TEST_CASE("the tour is walked through, skipped and seen again, and that it was seen is remembered") {
   test::NullUi window({.settings = [](Settings& settings) { settings.tour_seen = false; }});
   start_tour(window.ui);

@@ -214,8 +214,10 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   const bool ended = (state.commit || state.cancel) && !ui.input.unread;
   // A finger on the cloth or beside it is no click that Dear ImGui sees.
   bool elsewhere = false;
-  for (int button = 0; ui.input.by_touch && !state.typing_starts && button < ImGuiMouseButton_COUNT; ++button)
-    elsewhere |= ImGui::IsMouseClicked(button) && !ImGui::IsItemHovered();
+  const bool on_it = ImGui::IsMouseHoveringRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+  for (int button = 0; ui.input.by_touch && !on_it && ImGui::IsItemActive() && button < ImGuiMouseButton_COUNT;
+       ++button)
+    elsewhere |= ImGui::IsMouseClicked(button);
   const bool over = ended || elsewhere || (!state.typing_starts && !ImGui::IsItemActive());
   if (!over) return;
   const unsigned field = std::exchange(state.typing, 0);

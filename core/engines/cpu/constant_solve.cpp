@@ -20,7 +20,7 @@ constexpr std::ptrdiff_t mask_stride(int stride) {
 }  // namespace
 
 template <class R>
-void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
+void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears, const SpringWeights& weights) {
   const Lattice& lattice = cloth.lattice;
   const std::ptrdiff_t width = mask_stride<R>(stride_), pitch = std::ptrdiff_t(directions.size()) * width;
   whole_.assign(std::size_t((rows_ + ghost_rows + 1) * pitch), R(0));
@@ -32,9 +32,9 @@ void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
       for (int d = 0; d < int(directions.size()); ++d)
         if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
           whole_[std::size_t((i + ghost_rows) * pitch + d * width + j)] =
-              weights_differ()
-                  ? R(weights_.of(directions[std::size_t(d)]) + weights_.linear * double(cloth.springs.at(d, i, j)))
-                  : R(1);
+              weights.linear == 0
+                  ? R(1)
+                  : R(weights.of(directions[std::size_t(d)]) + weights.linear * double(cloth.springs.at(d, i, j)));
     }
 }
 
@@ -51,10 +51,10 @@ void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, Sprin
     columns_ = cloth.lattice.columns, stride_ = cloth.stride, rows_ = cloth.lattice.rows;
     changed = true;
   }
-  const bool same = weights == weights_ && tolerance == tolerance_, differed = weights_differ();
+  if (changed || weights_differ() || weights.linear != 0)
+    make_masks(cloth, tears, weights), piece_of_.clear(), way_ = Way::untried;
+  if (weights == weights_ && tolerance == tolerance_) return go_beyond(cloth, tears, beyond);
   weights_ = weights, tolerance_ = tolerance;
-  if (changed || differed || weights_differ()) make_masks(cloth, tears), piece_of_.clear(), way_ = Way::untried;
-  if (same) return go_beyond(cloth, tears, beyond);
   // What no lattice's sums of squared differences exceed, times the squares: 12 along stretch springs, 8 along bending
   // ones. Fewer springs and fixed particles make them less.
   kappa_ = 1 + 12 * weights.stretch + 8 * weights.bending;

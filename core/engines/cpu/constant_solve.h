@@ -49,7 +49,7 @@ class ConstantSolver {
   }
 
  private:
-  void make_masks(const Cloth<R>& cloth, const Tears& tears);
+  void make_masks(const Cloth<R>& cloth, const Tears& tears, const SpringWeights& weights);
   bool weights_differ() const { return weights_.linear != 0; }
   void iterate(const Field& r, int begin, int end, double omega, bool first);
   bool products_suffice() const { return left_ <= tolerance_ * (1 + 1e-9); }
