@@ -63,7 +63,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 24> fingers_
     {"Its height y is shown at the lower left", "Its height y stands at the end of Constants"},
     {"They are shown at the lower left, and as arrows on the particle",
      "They are arrows on the particle, and numbers at the end of Constants"},
-    {"A left drag cuts", "Cutting takes"},
+    {"A left drag cuts", "A cut breaks"},
     {"a left drag cuts", "a finger cuts"},
 }};
 

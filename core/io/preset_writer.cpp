@@ -58,14 +58,22 @@ std::string bodies_text(const std::vector<Body>& bodies) {
   return bodies.empty() ? "[]" : "[\n    " + joined(bodies, ",\n    ", body_text) + "\n  ]";
 }
 
-std::string section_text(std::string_view section, const Preset& p) {
+/// Constants that the first release did not have. A hash leaves them out where they have their defaults, so that a
+/// scene without them keeps its own.
+constexpr std::array<std::string_view, 2> later{"B", "twist"};
+bool is_left_out(const PresetRow& row, const Preset& p) {
+  return std::find(later.begin(), later.end(), row.key) != later.end() &&
+         field_text(row, p) == field_text(row, Preset{});
+}
+
+std::string section_text(std::string_view section, const Preset& p, bool hashed) {
   if (section == "bodies") return "  \"bodies\": " + bodies_text(p.bodies);
   std::string text;
   const auto add = [&](std::string_view key, const std::string& value) {
     text += (text.empty() ? "" : ", ") + json_text(key) + ": " + value;
   };
   for (const PresetRow& row : notation())
-    if (row.section == section) add(row.key, field_text(row, p));
+    if (row.section == section && !(hashed && is_left_out(row, p))) add(row.key, field_text(row, p));
   if (section == "cloth") add("pins", pins_text(p.pins));
   if (section == "solver")
     add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
@@ -126,17 +134,25 @@ std::string shortest_number(double v) {
   return number;
 }
 
-std::string preset_to_json(const Preset& p) {
+namespace {
+
+std::string json_of(const Preset& p, bool hashed) {
   std::string text = "{\n  \"tyglab_preset\": " + std::to_string(preset_version) +
                      ", \"kind\": " + json_text(name_of(p.kind)) + ",\n  \"name\": " + json_text(p.name) +
                      ",\n  \"description\": " + json_text(p.description);
-  for (std::string_view section : section_names) text += ",\n" + section_text(section, p);
+  for (std::string_view section : section_names) text += ",\n" + section_text(section, p, hashed);
   return text + "\n}\n";
+}
+
+}  // namespace
+
+std::string preset_to_json(const Preset& p) {
+  return json_of(p, false);
 }
 
 std::string preset_hash(const Preset& preset) {
   std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : preset_to_json(cleared(preset, appearance)))
+  for (const char c : json_of(cleared(preset, appearance), true))
     hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
   std::array<char, 17> text{};
   std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));

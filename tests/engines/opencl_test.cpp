@@ -94,6 +94,21 @@ TEST_CASE("constants change while it moves, and switch features on and off") {
   }
 }
 
+TEST_CASE("a force that OpenCL does not compute is refused while it moves too, and the cloth goes on as before") {
+  Preset preset = everything(Precision::double_);
+  preset.engine = EngineKind::opencl;
+  Preset with_B = preset;
+  with_B.B = 1e-4;
+  CHECK_THROWS_WITH_AS(Simulation{with_B}, doctest::Contains("does not compute F_B"), EngineError);
+  if (test::skipped_without_device()) return;
+  Simulation changed(preset), same(preset);
+  changed.advance(20), same.advance(20);
+  CHECK_THROWS_WITH_AS(changed.apply(edit::Change{with_B}), doctest::Contains("does not compute F_B"), EngineError);
+  CHECK(changed.preset() == preset);
+  changed.advance(20), same.advance(20);
+  CHECK(test::identical(changed.read(), same.read()));
+}
+
 TEST_CASE("the same springs tear, in the same steps") {
   if (test::skipped_without_device()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {

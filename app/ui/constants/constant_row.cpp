@@ -153,13 +153,17 @@ void row_tooltip(Ui& ui, const Line& line) {
     wrapped(ui, ui.input.by_touch ? "Takes effect at the next restart." : "Takes effect at the next restart (R).",
             c.warning);
   ImGui::PushFont(ui.fonts.small);
-  wrapped(ui,
-          ui.input.by_touch      ? line.components == 3 ? "Draw a number sideways, or tap it to type."
-                                                        : "Draw along the slider, or tap the number to type."
-          : line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
-                                 : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
-                                   "slider to reset. Right-click for more.",
-          c.quiet);
+  const bool vector = line.components == 3;
+  if (ui.input.by_touch)
+    wrapped(ui,
+            vector ? "Drag a number sideways, or tap it to type." : "Drag along the slider, or tap the number to type.",
+            c.quiet);
+  else
+    wrapped(ui,
+            vector ? "Drag a number sideways, double-click to type, right-click for more."
+                   : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
+                     "slider to reset. Right-click for more.",
+            c.quiet);
   ImGui::PopFont();
   end_tooltip(ui);
 }

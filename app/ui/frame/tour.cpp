@@ -42,8 +42,7 @@ constexpr std::array<Stop, 5> stops{
       "Drag with the right button: the particle under the pointer follows your hand. Drag with the left button to cut "
       "the cloth. Ctrl and the left button orbit the view, and the wheel zooms.",
       "One finger on the cloth grabs it, and two turn and zoom the view. The menu switches one finger to cutting, and "
-      "has "
-      "Undo.",
+      "has Undo.",
       cloth_place},
      {"The constants",
       "Every constant of the model has a slider; double-click its number to type one. The strip under a slider shows "
@@ -51,8 +50,7 @@ constexpr std::array<Stop, 5> stops{
       "(amber, dashed), and where the method is unstable in every shape (red, hatched).",
       "Every constant of the model has a slider; tap its number to type one. The strip under a slider shows where the "
       "chosen method is stable in any shape of the cloth (green), where stability depends on the shape (amber, "
-      "dashed), "
-      "and where the method is unstable in every shape (red, hatched).",
+      "dashed), and where the method is unstable in every shape (red, hatched).",
       constants_place},
      {"Run, step, restart",
       "Space runs and pauses. → makes one step of dt, and R restarts with the present constants. When a motion "
@@ -66,8 +64,7 @@ constexpr std::array<Stop, 5> stops{
       "k_s and dt, and I shows a step in formulas.",
       "Curves show the forces on the picked particle; a tap picks another one. Below are cards for copies with other "
       "settings, stability, accuracy, energy and cost; tap a heading to open one. The menu has a map of the stable "
-      "values "
-      "of k_s and dt, and a step in formulas.",
+      "values of k_s and dt, and a step in formulas.",
       plots_place},
      {"Labs",
       "A lab asks you to predict, lets you experiment, and checks the result. Begin with Hooke's law. Ctrl+P finds "

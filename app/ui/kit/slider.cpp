@@ -212,12 +212,11 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   if (again && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) gui::select_all_text();
   // Enter counts once the text field has been shown all that was typed before it.
   const bool ended = (state.commit || state.cancel) && !ui.input.unread;
-  // A finger on the cloth or beside it is no click that Dear ImGui sees.
+  // Only the left button ends Dear ImGui's own typing; a finger on the cloth presses another one.
   bool elsewhere = false;
   const bool on_it = ImGui::IsMouseHoveringRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
-  for (int button = 0; ui.input.by_touch && !on_it && ImGui::IsItemActive() && button < ImGuiMouseButton_COUNT;
-       ++button)
-    elsewhere |= ImGui::IsMouseClicked(button);
+  if (ui.input.by_touch && !on_it && ImGui::IsItemActive())
+    for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) elsewhere |= ImGui::IsMouseClicked(button);
   const bool over = ended || elsewhere || (!state.typing_starts && !ImGui::IsItemActive());
   if (!over) return;
   const unsigned field = std::exchange(state.typing, 0);

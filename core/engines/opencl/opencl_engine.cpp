@@ -17,6 +17,12 @@ namespace {
 
 constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
 
+void refuse_missing(const Preset& preset) {
+  if (const Force* force = missing_on_opencl(preset))
+    throw EngineError("The OpenCL engine does not compute " + std::string(force->symbol) +
+                      "; use the CPU engine (--engine cpu), or " + std::string(force->constant(preset)) + " = 0");
+}
+
 template <class R>
 constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
 
@@ -297,6 +303,7 @@ void OpenClEngine<R>::synchronize(const Tears& tears) {
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
+  refuse_missing(preset);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
@@ -417,10 +424,7 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
                       "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet");
-  for (const Force* force : force::all)
-    if (force->linear != nullptr && force->on(preset))
-      throw EngineError("The OpenCL engine does not compute " + std::string(force->symbol) + "; use the CPU engine " +
-                        "(--engine cpu), or " + std::string(force->constant(preset)) + " = 0");
+  refuse_missing(preset);
   // Where there is no device, open_device() says so.
   if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);
