@@ -37,12 +37,14 @@ INLINE vec from_left_2(vec before, vec now) {
   return v;
 }
 
-/// A row of the sweep: x and v of it and of the rows below, the ring's rows for it and the two below, its masks.
+/// A row of the sweep: x and v of it and of the rows below, the ring's rows for it and the two below, its masks, and the
+/// constants of LINEAR.
 typedef struct {
   global const REAL *x0, *x1, *x2, *v0, *v1;
   global REAL *f0, *f1, *f2;
   global const uchar* mask;
   int stride, mask_pitch, row;
+  global const REAL* linear;
 } Row;
 
 /// What goes from a block of a row to the next: forces on right ends.
@@ -52,17 +54,26 @@ typedef struct {
 
 INLINE vec kept(int masked, maskv on, vec f) { return masked ? where(on, f) : f; }
 
+#ifdef LINEAR
+#define WITH_LINEAR(f, linear, x_ij) plus_times(f, linear, x_ij)
+#define LINEAR_OF(r, number, j) LOAD((r)->linear + (number) * (r)->mask_pitch + (j))
+#else
+#define WITH_LINEAR(f, linear, x_ij) f
+#define LINEAR_OF(r, number, j) ZERO
+#endif
+
 /// Force of a stretch spring with its damping, on its owner.
-INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, int masked, maskv on) {
+INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, realv linear, int masked, maskv on) {
   vec f = times(stretch_factor(k->stretch, minus_half, dot3(x_ij, x_ij)), x_ij);
 #ifdef DAMPING
   f = plus_scaled(f, k->k_d, v_ij);
 #endif
-  return kept(masked, on, f);
+  return WITH_LINEAR(kept(masked, on, f), linear, x_ij);
 }
 
-INLINE vec bent(const Constants* k, vec x_ij, int masked, maskv on) {
-  return kept(masked, on, times(bend_factor(k->bend, k->bending, k->shortest2, dot3(x_ij, x_ij)), x_ij));
+INLINE vec bent(const Constants* k, vec x_ij, realv linear, int masked, maskv on) {
+  const vec f = times(bend_factor(k->bend, k->bending, k->shortest2, dot3(x_ij, x_ij)), x_ij);
+  return WITH_LINEAR(kept(masked, on, f), linear, x_ij);
 }
 
 /// a + b where the mask is set, else a.
@@ -88,10 +99,10 @@ INLINE vec force_in_row(const Constants* k, const Row* r, int j, int masked, Car
 #endif
   const maskv on_S = has(masked, m, bit_S), on_SE = has(masked, m, bit_SE), on_SW = has(masked, m + 1, bit_SW);
   const maskv on_E = has(masked, m, bit_E);
-  const vec right = stretched(k, k->straight, to_right, v_right, masked, on_E);
-  const vec below = stretched(k, k->straight, to_below, v_below, masked, on_S);
-  const vec slant = stretched(k, k->diagonal, to_slant, v_slant, masked, on_SE);
-  const vec crossing = stretched(k, k->diagonal, to_cross, v_cross, masked, on_SW);
+  const vec right = stretched(k, k->straight, to_right, v_right, LINEAR_OF(r, 0, j), masked, on_E);
+  const vec below = stretched(k, k->straight, to_below, v_below, LINEAR_OF(r, 1, j), masked, on_S);
+  const vec slant = stretched(k, k->diagonal, to_slant, v_slant, LINEAR_OF(r, 2, j), masked, on_SE);
+  const vec crossing = stretched(k, k->diagonal, to_cross, v_cross, LINEAR_OF(r, 3, j + 1), masked, on_SW);
   vec on_A = plus(plus(right, below), slant), on_B = minus(crossing, right);
   vec from_C = plus(below, crossing), from_E = slant;
 #ifdef WIND
@@ -112,8 +123,8 @@ INLINE vec force_in_row(const Constants* k, const Row* r, int j, int masked, Car
 #endif
 #ifdef BENDING
   from_C = plus(from_C, load(r->f1 + j, s));
-  const vec two_right = bent(k, minus(load(r->x0 + j + 2, s), A), masked, has(masked, m, bit_EE));
-  const vec two_below = bent(k, minus(load(r->x2 + j, s), A), masked, has(masked, m, bit_SS));
+  const vec two_right = bent(k, minus(load(r->x0 + j + 2, s), A), LINEAR_OF(r, 4, j), masked, has(masked, m, bit_EE));
+  const vec two_below = bent(k, minus(load(r->x2 + j, s), A), LINEAR_OF(r, 5, j), masked, has(masked, m, bit_SS));
   on_A = minus(plus(on_A, plus(two_below, two_right)), from_left_2(carry->two_right, two_right));
   carry->two_right = two_right;
   store(two_below, r->f2 + j, s);

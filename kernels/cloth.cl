@@ -4,7 +4,7 @@
 // memory includes two rows above and three below the cloth, and 16 numbers before. Masks have two rows of zeros above
 // and below, and 16 zeros on either side of a row, so springs that would leave the cloth count as torn. Build options:
 // REAL (float or double, with REAL_IS_DOUBLE), WIDTH (1, 4, 8 or 16), and the features of the scene: BENDING, DAMPING,
-// WIND, BODIES with BODY_REAL, ONE_WEIGHT. Constants are arguments.
+// LINEAR (which brings BENDING), WIND, BODIES with BODY_REAL, ONE_WEIGHT. Constants are arguments.
 #ifdef REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #define BITS ulong
@@ -38,6 +38,10 @@ typedef JOIN(MASK, WIDTH) maskv;
 #define ZERO ((realv)(0))
 
 enum { bit_E = 1, bit_S = 2, bit_SE = 4, bit_SW = 8, bit_EE = 16, bit_SS = 32, bit_free = 64, bit_plain = 128 };
+
+/// Constants of forces that are linear in positions (linear_springs.h) have the layout of masks, each row as its six
+/// directions, in the order of the bits.
+enum { linear_parts = 6 };
 
 /// A step's words in the report, which begins with zeros. Those from report_torn on are of looks at the springs.
 enum {

@@ -4,17 +4,32 @@
 /// The block of particles that a work-item looks at: pointers to its first one.
 typedef struct {
   global const REAL *x, *v;
+  global const REAL* linear;  // of LINEAR: its springs' constants
   global const uchar* mask;
   int stride, mask_pitch;
   int row, column;  // of the first
 } Block;
 
-/// Adds a stretch spring and its damping, to the particle di rows below and dj columns to the right.
-INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v, int di, int dj, int masked, maskv on) {
+#ifdef LINEAR
+/// The constant of a spring of that direction: of the particle itself, or of the one up or to the left that owns it.
+INLINE realv linear_at(const Block* b, int number, int di, int dj) {
+  const int owned = di > 0 || (di == 0 && dj > 0);
+  return b->linear[number * b->mask_pitch + (owned ? 0 : di * linear_parts * b->mask_pitch + dj)];
+}
+#define LINEAR_AT(b, number, di, dj) linear_at(b, number, di, dj)
+#else
+#define LINEAR_AT(b, number, di, dj) ZERO
+#endif
+
+/// Adds a stretch spring and its damping, to the particle di rows below and dj columns to the right; `number` is that of
+/// its direction.
+INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v, int number, int di, int dj, int masked,
+                        maskv on) {
   const int to = di * 3 * b->stride + dj;
   const vec x_ij = minus(load(b->x + to, b->stride), x);
   realv factor = stretch_factor(k->stretch, di != 0 && dj != 0 ? k->diagonal : k->straight, dot3(x_ij, x_ij));
   if (masked) factor = on ? factor : ZERO;
+  factor += LINEAR_AT(b, number, di, dj);
   f = plus_times(f, factor, x_ij);
 #ifdef DAMPING
   const vec v_ij = minus(load(b->v + to, b->stride), v);
@@ -24,10 +39,11 @@ INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v,
 }
 
 #ifdef BENDING
-INLINE vec with_bending(vec f, const Constants* k, const Block* b, vec x, int di, int dj, int masked, maskv on) {
+INLINE vec with_bending(vec f, const Constants* k, const Block* b, vec x, int number, int di, int dj, int masked,
+                        maskv on) {
   const vec x_ij = minus(load(b->x + di * 3 * b->stride + dj, b->stride), x);
   const realv factor = bend_factor(k->bend, k->bending, k->shortest2, dot3(x_ij, x_ij));
-  return plus_times(f, masked ? (on ? factor : ZERO) : factor, x_ij);
+  return plus_times(f, (masked ? (on ? factor : ZERO) : factor) + LINEAR_AT(b, number, di, dj), x_ij);
 }
 #endif
 
@@ -66,19 +82,19 @@ INLINE vec force_on(const Constants* k, const Block* b, vec x, vec v, int masked
   f.y = -k->k * (x.y - k->middle) - k->k_d * v.y - k->weight;
   return f;
 #else
-  f = with_stretch(f, k, b, x, v, 0, 1, masked, has(masked, m, bit_E));
-  f = with_stretch(f, k, b, x, v, 0, -1, masked, has(masked, m - 1, bit_E));
-  f = with_stretch(f, k, b, x, v, 1, 0, masked, has(masked, m, bit_S));
-  f = with_stretch(f, k, b, x, v, -1, 0, masked, has(masked, m + up, bit_S));
-  f = with_stretch(f, k, b, x, v, 1, 1, masked, has(masked, m, bit_SE));
-  f = with_stretch(f, k, b, x, v, -1, -1, masked, has(masked, m + up - 1, bit_SE));
-  f = with_stretch(f, k, b, x, v, 1, -1, masked, has(masked, m, bit_SW));
-  f = with_stretch(f, k, b, x, v, -1, 1, masked, has(masked, m + up + 1, bit_SW));
+  f = with_stretch(f, k, b, x, v, 0, 0, 1, masked, has(masked, m, bit_E));
+  f = with_stretch(f, k, b, x, v, 0, 0, -1, masked, has(masked, m - 1, bit_E));
+  f = with_stretch(f, k, b, x, v, 1, 1, 0, masked, has(masked, m, bit_S));
+  f = with_stretch(f, k, b, x, v, 1, -1, 0, masked, has(masked, m + up, bit_S));
+  f = with_stretch(f, k, b, x, v, 2, 1, 1, masked, has(masked, m, bit_SE));
+  f = with_stretch(f, k, b, x, v, 2, -1, -1, masked, has(masked, m + up - 1, bit_SE));
+  f = with_stretch(f, k, b, x, v, 3, 1, -1, masked, has(masked, m, bit_SW));
+  f = with_stretch(f, k, b, x, v, 3, -1, 1, masked, has(masked, m + up + 1, bit_SW));
 #ifdef BENDING
-  f = with_bending(f, k, b, x, 0, 2, masked, has(masked, m, bit_EE));
-  f = with_bending(f, k, b, x, 0, -2, masked, has(masked, m - 2, bit_EE));
-  f = with_bending(f, k, b, x, 2, 0, masked, has(masked, m, bit_SS));
-  f = with_bending(f, k, b, x, -2, 0, masked, has(masked, m + 2 * up, bit_SS));
+  f = with_bending(f, k, b, x, 4, 0, 2, masked, has(masked, m, bit_EE));
+  f = with_bending(f, k, b, x, 4, 0, -2, masked, has(masked, m - 2, bit_EE));
+  f = with_bending(f, k, b, x, 5, 2, 0, masked, has(masked, m, bit_SS));
+  f = with_bending(f, k, b, x, 5, -2, 0, masked, has(masked, m + 2 * up, bit_SS));
 #endif
 #ifdef WIND
   f = with_quad(f, k, b, 0, 0, masked);

@@ -16,6 +16,7 @@ typedef struct {
   REAL own;                          // of A's diagonal beside the springs
   REAL straight, diagonal, bending;  // rest lengths
   REAL shortest;                     // the length under which a bending spring has no direction
+  REAL linear;                       // h²/m, of the constants of LINEAR
 } Linear;
 
 /// As DeviceGradients in device_constants.h: how far conjugate gradients are, a group's part of it.
@@ -96,7 +97,7 @@ INLINE vec resistance(global const REAL* c, int pitch, vec d) {
 
 /// What one spring of each particle of the block resists with.
 INLINE void linearise_spring(const System* s, global const REAL* x, int to, maskv on, REAL rest, REAL k, int bends,
-                             REAL damped, global REAL* out) {
+                             REAL damped, realv linear, global REAL* out) {
   const vec x_ij = minus(load(x + to, s->stride), load(x, s->stride));
   const realv length = sqrt(dot3(x_ij, x_ij));
   // Along the spring k, across it k (1 - rest/length), where that is positive.
@@ -105,18 +106,29 @@ INLINE void linearise_spring(const System* s, global const REAL* x, int to, mask
       on & (bends ? (length < (realv)(rest)) & (length > (realv)(s->linear.shortest)) : length > (realv)(rest));
   const realv along = acts ? sqrt((realv)(k) - across) / length : ZERO;
   store(times(along, x_ij), out, s->mask_pitch);
-  STORE((on ? (realv)(damped) : ZERO) + (acts ? across : ZERO), out + 3 * s->mask_pitch);
+  STORE((on ? (realv)(damped) : ZERO) + (acts ? across : ZERO) + linear, out + 3 * s->mask_pitch);
 }
 
-INLINE void linearise_share(const System* s, global const REAL* x_field, int item, int items) {
+#ifdef LINEAR
+#define LINEAR_PART(number) ((realv)(l->linear) * LOAD(own + (number) * s->mask_pitch))
+#else
+#define LINEAR_PART(number) ZERO
+#endif
+
+INLINE void linearise_share(const System* s, global const REAL* x_field, global const REAL* linear, int item,
+                            int items) {
   const int rows = s->rows, columns = s->columns, below = 3 * s->stride;
   const Linear* l = &s->linear;
   FOR_ROWS FOR_BLOCKS {
     global const REAL* x = x_field + place(row, column, 3 * s->stride);
     global REAL* out = s->coefficients + place(row, column, particle_parts * s->mask_pitch);
     global const uchar* m = s->masks + place(row, column, s->mask_pitch);
-#define LINEARISE(number, to, bit, rest, k, bends, damped) \
-  linearise_spring(s, x, to, has(1, m, bit), rest, k, bends, damped, out + (number) * spring_parts * s->mask_pitch)
+#ifdef LINEAR
+    global const REAL* own = linear + place(row, column, linear_parts * s->mask_pitch);
+#endif
+#define LINEARISE(number, to, bit, rest, k, bends, damped)                                       \
+  linearise_spring(s, x, to, has(1, m, bit), rest, k, bends, damped, LINEAR_PART(number), \
+                   out + (number) * spring_parts * s->mask_pitch)
     LINEARISE(0, 1, bit_E, l->straight, l->stretch, 0, l->k_d);
     LINEARISE(1, below, bit_S, l->straight, l->stretch, 0, l->k_d);
     LINEARISE(2, below + 1, bit_SE, l->diagonal, l->stretch, 0, l->k_d);
@@ -254,10 +266,10 @@ INLINE int goes_on(SUM squared, SUM enough, int count, int most) {
 }
 INLINE REAL kept_direction(sum2 now, SUM before) { return before > 0 ? (REAL)(now.y / before) : (REAL)(0); }
 
-kernel void linearise(SYSTEM_ARGUMENTS, global const REAL* x) {
+kernel void linearise(SYSTEM_ARGUMENTS, global const REAL* x, global const REAL* constants) {
   const System s = SYSTEM;
   ITEM;
-  linearise_share(&s, x, item, items);
+  linearise_share(&s, x, constants, item, items);
 }
 
 /// Conjugate gradients from beginning to end, by one group: for small cloths, whose launches would take longer than

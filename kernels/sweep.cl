@@ -77,16 +77,17 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
 #define ARGUMENTS                                                                                                   \
   global REAL *scratch, int bands, int levels, int band_numbers, global const uchar *masks, int stride,             \
       int mask_pitch, int rows, int columns, const Constants constants, global uint *reports, global REAL *hands,   \
-      int slot, int held, global const void *body_list, int body_count, global void *contact_list
+      int slot, int held, global const void *body_list, int body_count, global void *contact_list,   \
+      global const REAL *linear
 
 #ifdef BODIES
 /// `own`: the particles are this work-item's alone, so what happens to them is counted.
-#define MEET_BODIES(old, x, v, seen)                                                                                \
-  if (touches((global const Body*)body_list, body_count, x))                                                        \
-  collide_block((global const Body*)body_list, body_count, k, columns - column, row * columns + column, own, fixed, \
-                old, &x, &v, &seen, report, (global Contact*)contact_list)
+#define MEET_BODIES(old, old_v, x, v, seen, sees_itself)                                                            \
+  if (touches(((global const BodyList*)body_list)->bodies, body_count, old, x))                                     \
+  collide_block((global const BodyList*)body_list, body_count, k, columns - column, row * columns + column, own,    \
+                fixed, old, old_v, &x, &v, &seen, sees_itself, report, (global Contact*)contact_list)
 #else
-#define MEET_BODIES(old, x, v, seen)
+#define MEET_BODIES(old, old_v, x, v, seen, sees_itself)
 #endif
 
 /// Of a block on which no force is computed.
@@ -99,8 +100,8 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
   global uint* report = reports + slot * report_words;                                                              \
   const int column = (int)get_global_id(0), row = (int)get_global_id(1), own = 1;                                   \
   const int at = place(row, column, 3 * stride);                                                                    \
-  const Block block = {x_field + at, v_field + at, masks + place(row, column, mask_pitch), stride, mask_pitch, row, \
-                       column};                                                                                     \
+  const Block block = {x_field + at, v_field + at, linear + place(row, column, linear_parts * mask_pitch),          \
+                       masks + place(row, column, mask_pitch), stride, mask_pitch, row, column};                                                                                     \
   const int inside = row < rows && column < columns
 #define FIND_FORCE                                                                                                  \
   const vec own_x = load(block.x, stride), own_v = load(block.v, stride);                                           \

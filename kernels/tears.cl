@@ -99,6 +99,38 @@ kernel void derive_masks(global const uchar* springs, global uchar* masks, globa
   masks[at] = (uchar)mask;
 }
 
+#ifdef LINEAR
+enum { most_stencil_springs = 6 };
+
+/// What a stencil of a force that is linear in positions adds to one of its springs, as DeviceShare in
+/// device_constants.h.
+typedef struct {
+  REAL adds;                                        // N/m
+  int direction, di, dj;                            // of the spring; its owner, as the stencil's sees it
+  int last_row, first_column, last_column, springs;  // how far its points reach; how many springs must be whole
+  int bit[most_stencil_springs], spring_di[most_stencil_springs], spring_dj[most_stencil_springs];
+} Share;
+
+/// The constants of forces that are linear in positions, as LinearSprings::compute makes them. A work-item a particle.
+/// `report`: as in derive_masks.
+kernel void derive_linear(global const uchar* springs, global REAL* linear, global const uint* report, int slot,
+                          int mask_pitch, int rows, int columns, global const Share* shares, int count) {
+  const int j = (int)get_global_id(0), i = (int)get_global_id(1);
+  if (i >= rows || j >= columns || (report != 0 && report[slot * report_words + report_torn] == 0)) return;
+  REAL sums[linear_parts] = {0, 0, 0, 0, 0, 0};
+  for (int n = 0; n < count; ++n) {
+    global const Share* share = shares + n;
+    const int row = i - share->di, column = j - share->dj;  // of the stencil's owner
+    int acts = row >= 0 && row + share->last_row < rows && column + share->first_column >= 0 &&
+               column + share->last_column < columns;
+    for (int s = 0; acts && s < share->springs; ++s)
+      acts = (springs[place(row + share->spring_di[s], column + share->spring_dj[s], mask_pitch)] & share->bit[s]) != 0;
+    if (acts) sums[share->direction] += share->adds;
+  }
+  for (int d = 0; d < linear_parts; ++d) linear[place(i, j, linear_parts * mask_pitch) + d * mask_pitch] = sums[d];
+}
+#endif
+
 /// The square of a whole spring's length; 0 for one that is torn or leaves the cloth.
 INLINE REAL whole_squared(global const REAL* x, int stride, int mask, int bit, int di, int dj) {
   REAL sum = 0;

@@ -221,8 +221,7 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
   const Precision other = single ? Precision::double_ : Precision::float_;
   add(std::string(name_of(other)), {&Preset::precision, other}, "Precision");
   if (!cpu) add("CPU", {&Preset::engine, EngineKind::cpu}, "Engine");
-  if (cpu && runs_on_opencl(scheme(preset.integrator)) && missing_on_opencl(preset) == nullptr)
-    add("OpenCL", {&Preset::engine, EngineKind::opencl}, "Engine");
+  if (cpu && runs_on_opencl(scheme(preset.integrator))) add("OpenCL", {&Preset::engine, EngineKind::opencl}, "Engine");
   for (CopyChoice& choice : choices)
     if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back(&Preset::engine, EngineKind::cpu);
   return choices;

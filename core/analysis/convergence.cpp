@@ -52,8 +52,12 @@ std::string why_lower(const Convergence& study) {
   const Preset& preset = study.of;
   if (study.torn > 0)
     return printed("%d springs tore, each at the end of a step, which reduces the order to 1.", study.torn);
+  if (!preset.bodies.empty() && preset.contact == "step")
+    return "Contact with bodies begins in the middle of a step, which reduces the order to 1; contact = local keeps 2.";
   if (!preset.bodies.empty())
-    return "Contact with bodies begins in the middle of a step, which reduces the order to 1.";
+    return preset.k_d > 0
+               ? "Damping passes an impact on to other particles from the next step on, which reduces the order to 1."
+               : "Each impact is found within its step, with an error of second order.";
   if (preset.kind == Kind::cloth)
     return "Springs that tighten and slacken put kinks in the forces, which lower the order.";
   return "A smaller dt may come closer to it.";

@@ -1,17 +1,20 @@
-// Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"). It uses double for both precisions:
-// few particles touch a body, and rounding to float would be visible as jitter.
+// Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"); what it does is in
+// kernels/contact.cl, which the OpenCL engine compiles too. It uses double for both precisions: few particles touch a
+// body, and rounding to float would be visible as jitter.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <span>
 
+#include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
-/// A particle over one step: position before, tentative position and velocity after.
+/// A particle over one step: its position before, its stored velocity before the step's last sweep, and where the step
+/// would end without bodies.
 struct ContactStep {
-  glm::dvec3 old_x, x, v;
+  glm::dvec3 old_x, old_v, x, v;
 };
 
 /// How deep `x` is inside the body, m; negative outside.
@@ -21,27 +24,30 @@ double depth(const Body& body, const glm::dvec3& x);
 /// state's precision.
 double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
 
-/// The speed toward the body, m/s, below which a particle rests on it rather than bounces. The step that finds a
-/// contact errs in the speed of the bounce, by g dt (Verlet) to 3 g dt (Euler), so with a restitution e, bounces of up
-/// to 3 g dt/(1 - e) regain the energy that they lose and would never end. 0 above e = 0.9, where it would end real
-/// bounces.
-double rest_speed(const Body& body, double g, double dt);
-
 /// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt. Then the
-/// body exerts a force that no formula gives, since collide() corrects positions and velocities.
+/// body exerts a force that no formula gives, since contacts correct positions and velocities.
 bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
                      const glm::dvec3& a);
 
-/// Parameters of contacts besides the bodies.
-struct ContactRule {
-  double dt;       ///< s
-  double g;        ///< m/s²
-  double epsilon;  ///< of the state's precision
+/// The rule of contacts besides the bodies (solver.contact).
+struct Contacts {
+  bool at_ends = false;  ///< the report's rule, which looks at the ends of steps alone
+  double dt = 0;         ///< s
+  double g = 0;          ///< m/s²
+  double epsilon = 0;    ///< of the state's precision
+  StepShape shape;       ///< of the method's steps
+  double lag = 0;        ///< Scheme::lag
 };
+/// Of steps of that length, s, which the preset's own dt may contain several of.
+Contacts contacts_of(const Preset& preset, double dt, double epsilon);
+/// Whether bodies act within steps, for which velocities before the step are kept.
+bool meets_within_steps(const Preset& preset);
 
-/// Corrects x and v for all bodies, in list order and repeatedly. Returns whether x is outside all of them afterwards
-/// (overlapping bodies can leave it inside one).
-bool collide(std::span<const Body> bodies, const ContactRule& rule, ContactStep& step);
+/// Whether the step meets a body.
+bool meets(std::span<const Body> bodies, const Contacts& rule, const ContactStep& step);
+/// Corrects x and v of a step that meets bodies. Returns whether x is outside all of them afterwards (overlapping
+/// bodies can leave it inside one).
+bool collide(std::span<const Body> bodies, const Contacts& rule, ContactStep& step);
 
 // Gusts: W varies with simulated time. They are not part of the report's model, whose wind is steady, and off by
 // default. The acceleration remains a(x, v): the wind changes only between two steps, so all stages of a step use one

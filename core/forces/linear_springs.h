@@ -34,15 +34,16 @@ class LinearSprings {
   R at(int direction, int i, int j) const;
   std::size_t bytes() const { return data_.size() * sizeof(R) + block_of_.size() * sizeof(int) + known_.bytes(); }
 
- private:
   /// What a stencil owned by (i, j) adds to the spring of a direction that (i + di, j + dj) owns.
   struct Share {
     const Stencil* stencil;
     int direction, di, dj;
-    double constant;
+    double constant;  ///< N/m, times the scale
     bool operator==(const Share&) const = default;
   };
   static std::vector<Share> shares_of(const Preset& preset, double scale);
+
+ private:
   bool is_regular(const Tears& tears, int i) const;
   void compute(const Tears& tears, int i, R* to) const;
   std::ptrdiff_t pitch() const { return std::ptrdiff_t(directions.size()) * stride_; }

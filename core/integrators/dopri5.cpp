@@ -135,8 +135,8 @@ Scheme dopri5() {
           R"($dt$ exactly. The method keeps the fifth-order result, so the error at a later time is roughly )"
           R"(proportional to the tolerance. $dt$ is only the interval of output. After each inner step, bodies and )"
           R"(tearing act and the force on the hand is measured; the hand releases at the end of a $dt$. Contact is )"
-          R"(not a smooth force, and the error estimate does not include it. Its error depends on how far particles )"
-          R"(move within an inner step, whatever the tolerance, so with bodies $dt$ must be short too.
+          R"(not a smooth force, and the error estimate does not include it. It is found within the inner step, with )"
+          R"(an error of second order in its length, whatever the tolerance, so with bodies $dt$ must be short too.
 
 The program counts what limits the steps: *stability* if the fastest motion between the last two stages, which )"
           R"(both belong to the end of the step, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"

@@ -106,6 +106,12 @@ struct Scheme {
 };
 
 std::span<const Scheme> schemes();
+/// What a step makes of a constant acceleration a, which contacts within the step ask for.
+struct StepShape {
+  double position = 0;   ///< x_1 = x_0 + dt·(v + position·dt·a), v: the stored velocity before the step
+  double last_kick = 0;  ///< its last sweep adds last_kick·dt·a to the stored velocity
+};
+StepShape step_shape(const Scheme& scheme);
 /// The velocity that damping uses at the beginning of a step: v itself or a prediction of it.
 inline int seen_velocity(const Scheme& scheme) {
   const Sweep& first = scheme.sweeps.front();

@@ -36,6 +36,29 @@ const Scheme& scheme(std::string_view name) {
   return *it;
 }
 
+StepShape step_shape(const Scheme& scheme) {
+  std::vector<double> vectors(std::size_t(scheme.vectors), 0.0);  // at dt = a = 1, from rest at 0
+  const auto assign = [&](const std::vector<Assignment>& assignments) {
+    for (const Assignment& assignment : assignments) {
+      double sum = 0;
+      for (const Term& term : assignment.terms)
+        sum += term.factor * (term.vector == acceleration ? 1 : vectors[std::size_t(term.vector)]);
+      vectors[std::size_t(assignment.target)] = sum;
+    }
+  };
+  double before_last = 0;
+  for (const Sweep& sweep : scheme.sweeps) {
+    before_last = vectors[vector_v];
+    assign(sweep.before);
+    if (sweep.solves != 0) {
+      vectors[std::size_t(sweep.velocity)] += sweep.solves;
+      vectors[std::size_t(sweep.position)] += sweep.solves * vectors[std::size_t(sweep.velocity)];
+    }
+    assign(sweep.assignments);
+  }
+  return {vectors[vector_x], vectors[vector_v] - before_last};
+}
+
 std::span<const std::string_view> integrator_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;

@@ -45,6 +45,10 @@ std::string value_problem(const Row<T>& row, const T& object) {
           if (row.key == "integrator" && !is_integrator(value))
             return "\"" + excerpt(value) + "\" is not an integrator" + did_you_mean(value, integrator_names(), ".") +
                    " Known: " + joined(integrator_names());
+          if (row.key == "contact" &&
+              std::find(contact_names.begin(), contact_names.end(), value) == contact_names.end())
+            return "\"" + excerpt(value) + "\" is not known" + did_you_mean(value, contact_names, ".") +
+                   " Allowed: " + joined(contact_names);
           return {};
         } else {
           return range_problem(row, double(value));

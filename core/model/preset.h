@@ -81,6 +81,7 @@ struct Preset {
   Precision precision = Precision::float_;
   double tolerance = 1e-5;
   int iterations = 10;
+  std::string contact = "local";  ///< when bodies act: one of contact_names (words.h)
 
   // view
   int mode = 1;

@@ -17,6 +17,8 @@ inline constexpr std::array<std::string_view, 7> pin_names{"none",        "top_r
 inline constexpr std::array<std::string_view, 2> shape_names{"sphere", "plane"};
 inline constexpr std::array<std::string_view, 3> engine_names{"cpu", "opencl", "plain"};
 inline constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
+/// Values of solver.contact: within the step, or at its end (the report's rule).
+inline constexpr std::array<std::string_view, 2> contact_names{"local", "step"};
 constexpr std::string_view name_of(Kind v) {
   return kind_names[std::size_t(v)];
 }

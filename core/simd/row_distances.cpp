@@ -44,7 +44,7 @@ double strain(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin
 }
 
 template <class R>
-R nearest(const R* x, std::ptrdiff_t stride, int columns, const R* point) {
+R nearest(const R* from, const R* x, std::ptrdiff_t stride, int columns, const R* point) {
   using D = hn::ScalableTag<R>;
   using V = Vec3<D>;
   constexpr int lanes = int(hn::MaxLanes(D()));
@@ -52,9 +52,14 @@ R nearest(const R* x, std::ptrdiff_t stride, int columns, const R* point) {
   const V center{{hn::Set(D(), point[0])}, {hn::Set(D(), point[1])}, {hn::Set(D(), point[2])}};
   auto least = far;
   for (int j = 0; j < columns; j += lanes) {
-    const V way = V::load(x + j, stride) - center;
+    // The nearest point of the way, as a part of it back from its end.
+    const V end = V::load(x + j, stride) - center, way = V::load(x + j, stride) - V::load(from + j, stride);
+    const auto square = dot(way, way).v, zero = hn::Zero(D());
+    const auto back = hn::IfThenElse(hn::Gt(square, zero), hn::Div(dot(end, way).v, square), zero);
+    const auto part = hn::Max(zero, hn::Min(back, hn::Set(D(), R(1))));
+    const V nearest = end - typename V::L{part} * way;
     const auto inside = hn::FirstN(D(), std::size_t(columns - j));
-    least = hn::Min(least, hn::IfThenElse(inside, dot(way, way).v, far));
+    least = hn::Min(least, hn::IfThenElse(inside, dot(nearest, nearest).v, far));
   }
   return hn::GetLane(hn::MinOfLanes(D(), least));
 }
@@ -86,11 +91,11 @@ double strain_double(const double* x, std::ptrdiff_t stride, std::ptrdiff_t othe
                      bool pushes) {
   return strain(x, stride, other, begin, end, rest, pushes);
 }
-float nearest_float(const float* x, std::ptrdiff_t stride, int columns, const float* point) {
-  return nearest(x, stride, columns, point);
+float nearest_float(const float* from, const float* x, std::ptrdiff_t stride, int columns, const float* point) {
+  return nearest(from, x, stride, columns, point);
 }
-double nearest_double(const double* x, std::ptrdiff_t stride, int columns, const double* point) {
-  return nearest(x, stride, columns, point);
+double nearest_double(const double* from, const double* x, std::ptrdiff_t stride, int columns, const double* point) {
+  return nearest(from, x, stride, columns, point);
 }
 float lowest_float(const float* x, std::ptrdiff_t stride, int columns) {
   return lowest_y(x, stride, columns);
@@ -133,12 +138,12 @@ double strain_squared(const double* x, std::ptrdiff_t stride, std::ptrdiff_t oth
   return HWY_DYNAMIC_DISPATCH(strain_double)(x, stride, other, begin, end, rest, pushes);
 }
 template <>
-float nearest_squared(const float* x, std::ptrdiff_t stride, int columns, const float point[3]) {
-  return HWY_DYNAMIC_DISPATCH(nearest_float)(x, stride, columns, point);
+float nearest_squared(const float* from, const float* x, std::ptrdiff_t stride, int columns, const float point[3]) {
+  return HWY_DYNAMIC_DISPATCH(nearest_float)(from, x, stride, columns, point);
 }
 template <>
-double nearest_squared(const double* x, std::ptrdiff_t stride, int columns, const double point[3]) {
-  return HWY_DYNAMIC_DISPATCH(nearest_double)(x, stride, columns, point);
+double nearest_squared(const double* from, const double* x, std::ptrdiff_t stride, int columns, const double point[3]) {
+  return HWY_DYNAMIC_DISPATCH(nearest_double)(from, x, stride, columns, point);
 }
 template <>
 float lowest(const float* x, std::ptrdiff_t stride, int columns) {

@@ -70,9 +70,10 @@ R longest_squared(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int b
 template <class R>
 double strain_squared(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, R rest, bool pushes);
 
-/// The smallest distance² of the row's first `columns` particles from a point, m².
+/// The smallest distance² of a point from the ways of the row's first `columns` particles, straight on from where they
+/// were (another row) to where they are, m².
 template <class R>
-R nearest_squared(const R* x, std::ptrdiff_t stride, int columns, const R point[3]);
+R nearest_squared(const R* from, const R* x, std::ptrdiff_t stride, int columns, const R point[3]);
 
 /// The smallest y of the row's first `columns` particles, m.
 template <class R>

@@ -72,7 +72,7 @@ TEST_CASE("what spoils the order is said") {
   contact.x_0 = {0, 0.305, 0};
   Body sphere;
   sphere.c = {0, 0.1, 0}, sphere.r = 0.2;
-  contact.bodies = {sphere};
+  contact.bodies = {sphere}, contact.contact = "step";
   const Convergence study = measured(contact, 0.05);
   CHECK(measured_order(study)->order < 1.7);
   CAPTURE(convergence_words(study));

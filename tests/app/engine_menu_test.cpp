@@ -59,10 +59,6 @@ TEST_CASE("what cannot run is not offered, and says why; until the devices are k
   preset.integrator = "xpbd";
   CHECK(why_not(modes[opencl_float], preset, &two).find("XPBD runs only on the CPU engine.") == 0);
   CHECK(why_not(modes[cpu_double], preset, &two).empty());
-  preset.integrator = "verlet", preset.B = 1e-4;
-  CHECK(why_not(modes[opencl_float], preset, &two) == "F_B runs only on the CPU engine. Set B to 0 first.");
-  CHECK(why_not(modes[cpu_double], preset, &two).empty());
-  for (const CopyChoice& choice : copy_choices(preset)) CHECK(choice.label != "OpenCL");
 }
 
 TEST_CASE("copies of a cloth on OpenCL take the CPU engine along where their method needs it, and no other do") {
@@ -105,22 +101,6 @@ TEST_CASE("a method of the CPU engine alone brings it along: one change, one und
         desk.session.copies.lockstep.clear();
       }
   }
-}
-
-TEST_CASE("a force that OpenCL does not compute brings the CPU engine along too") {
-  if (test::skipped_without_device()) return;
-  test::Desk desk(on_opencl());
-  Preset next = desk.session.preset();
-  next.B = 1e-4;
-  desk.session.propose(next);
-  act(desk);
-  CHECK(desk.session.preset().B == 1e-4);
-  CHECK(desk.session.preset().engine == EngineKind::cpu);
-  REQUIRE(desk.session.messages.list().size() == 1);
-  CHECK(desk.session.messages.list().front().text == "F_B runs only on the CPU engine, so that engine was chosen.");
-  desk.ui.command("undo");
-  act(desk);
-  CHECK(desk.session.preset() == on_opencl());
 }
 
 }  // namespace tyglab::engine_menu_test

@@ -94,19 +94,36 @@ TEST_CASE("constants change while it moves, and switch features on and off") {
   }
 }
 
-TEST_CASE("a force that OpenCL does not compute is refused while it moves too, and the cloth goes on as before") {
-  Preset preset = everything(Precision::double_);
-  preset.engine = EngineKind::opencl;
-  Preset with_B = preset;
-  with_B.B = 1e-4;
-  CHECK_THROWS_WITH_AS(Simulation{with_B}, doctest::Contains("does not compute F_B"), EngineError);
+TEST_CASE("forces that are linear in positions: B and twist, through cuts, tears, bodies and changes of constants") {
   if (test::skipped_without_device()) return;
-  Simulation changed(preset), same(preset);
-  changed.advance(20), same.advance(20);
-  CHECK_THROWS_WITH_AS(changed.apply(edit::Change{with_B}), doctest::Contains("does not compute F_B"), EngineError);
-  CHECK(changed.preset() == preset);
-  changed.advance(20), same.advance(20);
-  CHECK(test::identical(changed.read(), same.read()));
+  for (const char* integrator : {"verlet", "rk4", "implicit_euler", "tr_bdf2"}) {
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      CAPTURE(std::string(integrator));
+      CAPTURE(int(precision));
+      Preset preset = everything(precision);
+      preset.integrator = integrator, preset.B = 2e-4;
+      Pair pair(preset);
+      pair.advance(20);
+      pair.check();
+      pair.apply(edit::Cut{{{5, 6}, {6, 6}, {6, 7}}});
+      pair.advance(20);
+      pair.change([](Preset& p) { p.twist = 0.3, p.B = 1e-4; });
+      pair.advance(20);
+      pair.check();
+      pair.change([](Preset& p) { p.B = 0; });
+      pair.advance(10);
+      pair.change([](Preset& p) { p.B = 3e-4, p.k_b = 0; });
+      pair.advance(20);
+      pair.check();
+    }
+  }
+  // Springs that steps tear by themselves take the constants with them.
+  Preset torn = test::cloth(24, 21);
+  torn.B = 1e-4, torn.F_max = 0.03, torn.k_s = 100;
+  Pair pair(torn);
+  pair.advance(250);
+  CHECK(pair.cpu.tears().torn_count() > 10);
+  pair.check();
 }
 
 TEST_CASE("the same springs tear, in the same steps") {

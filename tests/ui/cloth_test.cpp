@@ -249,6 +249,14 @@ TEST_CASE("a body that is added is in view, and its constants in sight; a plane 
     CHECK(window.sees("constants.bodies[1].restitution.slider"));
     const glm::vec2 at = pixel(window, {0, plane.y, 0});
     CHECK(window.ui.viewport.box.contains(at));
+    CHECK(window.preset().contact == "local");
+    window.scroll_to("constants.contact.2", "constants.bodies[1].y.slider");
+    window.click("constants.contact.2");
+    window.frames(2);
+    CHECK(window.preset().contact == "step");
+    window.ui.command("undo");
+    window.frames(2);
+    CHECK(window.preset().contact == "local");
   }
   // Over a cloth that lies on a plane.
   test::NullUi window({.with = [](Preset& preset) {

@@ -10,6 +10,7 @@
 #include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -177,6 +178,23 @@ void view_section(Ui& ui) {
   if (cloth) tool_rows(ui);
 }
 
+/// When bodies act, where there are some.
+void contact_row(Ui& ui) {
+  labeled_row(ui, "contact", [&](float width) {
+    static constexpr const char* times[] = {"when met", "at end of step"};
+    const std::string now = ui.session.requested_preset().contact;
+    const int chosen = int(std::find(contact_names.begin(), contact_names.end(), now) - contact_names.begin());
+    if (const int k = segments(ui, "contact", times, 2, chosen, 11, width); k >= 0 && k != chosen) {
+      Preset next = ui.session.requested_preset();
+      next.contact = contact_names[std::size_t(k)];
+      ui.session.propose(std::move(next));
+    }
+    tooltip(ui, gui::item_id(),
+            "When bodies act: at the time of contact within the step (order 2), or at the end of the step as in the "
+            "report (order 1).");
+  });
+}
+
 void body_sections(Ui& ui) {
   if (!section(ui, "Bodies")) return;
   for (int k = 0; k < int(ui.session.requested_preset().bodies.size()); ++k) {
@@ -184,6 +202,7 @@ void body_sections(Ui& ui) {
     body_block(ui, k);
     ImGui::PopID();
   }
+  if (!ui.session.requested_preset().bodies.empty()) contact_row(ui);
   const bool room = no_more_bodies(ui).empty();
   if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();

@@ -81,9 +81,6 @@ std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClIn
   const Scheme& method = scheme(preset.integrator);
   if (!runs_on_opencl(method))
     return std::string(method.title) + " runs only on the CPU engine. Choose another method first.";
-  if (const Force* force = missing_on_opencl(preset))
-    return std::string(force->symbol) + " runs only on the CPU engine. Set " + std::string(force->constant(preset)) +
-           " to 0 first.";
   const OpenClDevice* device = device_of(preset, devices);
   if (device != nullptr && mode.precision == Precision::double_ && !device->fp64)
     return device->name + " does not support double precision.";

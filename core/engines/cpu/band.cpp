@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/engines/cpu/row_update.h"
-#include "core/forces/contact.h"
 #include "core/forces/force.h"
 #include "core/forces/spring-inl.h"
 #include "core/simd/row_field.h"
@@ -45,13 +44,14 @@ void Band<R, Present>::cover(int begin, int end) {
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::allocate(bool old_rows) {
+void Band<R, Present>::allocate(bool old_rows, bool old_velocities) {
   if (old_rows && old_rows_.empty()) old_rows_.resize(block_, cloth_.stride);
+  if (old_velocities && old_velocities_.empty()) old_velocities_.resize(block_, cloth_.stride);
 }
 
 template <class R, unsigned Present>
 std::size_t Band<R, Present>::bytes() const {
-  std::size_t total = ring_.bytes() + old_rows_.bytes();
+  std::size_t total = ring_.bytes() + old_rows_.bytes() + old_velocities_.bytes();
   for (const Halo* halo : {&head_, &tail_}) total += halo->x.bytes() + halo->v.bytes();
   return total;
 }
@@ -183,8 +183,10 @@ void Band<R, Present>::sum_rows(int i, int count) {
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::save_rows(int i, int count) {
+void Band<R, Present>::save_rows(int i, int count, bool bodies) {
   std::copy_n(cloth_.row(vector_x, i, 0), count * old_rows_.pitch(), old_row(i, 0));
+  if (bodies && !cloth_.contacts.at_ends)
+    std::copy_n(cloth_.row(vector_v, i, 0), count * old_rows_.pitch(), old_velocity(i, 0));
 }
 
 /// A pair swept in the halo goes back to the cloth.
@@ -195,20 +197,21 @@ void Band<R, Present>::restore_pair(const PairTask<R>& t, const ResolvedSweep& s
   std::copy_n(t.v, 2 * v.pitch(), v.row(i));
 }
 
-/// Whether a particle of the row may be inside a body; rounding is left to the exact test.
+/// Whether a particle of the row may meet a body; rounding is left to the exact test.
 template <class R, unsigned Present>
-bool Band<R, Present>::touches(int i) const {
+bool Band<R, Present>::touches(int i) {
   const R* x = cloth_.row(vector_x, i, 0);
+  const R* from = cloth_.contacts.at_ends ? x : old_row(i, 0);
   constexpr double epsilon = double(std::numeric_limits<R>::epsilon());
   for (const Body& body : cloth_.preset.bodies) {
     if (body.shape == Body::Shape::plane) {
-      const R height = std::nextafter(R(body.y), std::numeric_limits<R>::max());
-      if (simd::lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
+      const R lowest = simd::lowest(x, cloth_.stride, cloth_.lattice.columns);
+      if (lowest < body.y + contact_tolerance(body, {0, lowest, 0}, 2 * epsilon)) return true;
       continue;
     }
     const R center[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
     const double reach = body.r + contact_tolerance(body, body.c, epsilon);
-    if (double(simd::nearest_squared(x, cloth_.stride, cloth_.lattice.columns, center)) <
+    if (double(simd::nearest_squared(from, x, cloth_.stride, cloth_.lattice.columns, center)) <
         reach * reach * (1 + 8 * epsilon))
       return true;
   }
@@ -218,7 +221,8 @@ bool Band<R, Present>::touches(int i) const {
 template <class R, unsigned Present>
 void Band<R, Present>::collide_row(int i) {
   const double scale = cloth_.velocity_scale();
-  const ContactRule rule{cloth_.dt, cloth_.preset.g, double(std::numeric_limits<R>::epsilon())};
+  Contacts rule = cloth_.contacts;
+  rule.dt = cloth_.dt;
   int next_fixed = cloth_.fixed_begin[i];
   for (int j = 0; j < cloth_.lattice.columns; ++j) {
     if (has(part::pins) && next_fixed < cloth_.fixed_begin[i + 1] && cloth_.fixed_columns[next_fixed] == j) {
@@ -226,18 +230,21 @@ void Band<R, Present>::collide_row(int i) {
       continue;
     }
     R *x[3], *v[3];
-    for (int c = 0; c < 3; ++c) x[c] = cloth_.row(vector_x, i, c) + j, v[c] = cloth_.row(vector_v, i, c) + j;
-    ContactStep p{{old_row(i, 0)[j], old_row(i, 1)[j], old_row(i, 2)[j]}, {*x[0], *x[1], *x[2]}, {*v[0], *v[1], *v[2]}};
-    if (std::none_of(cloth_.preset.bodies.begin(), cloth_.preset.bodies.end(),
-                     [&](const Body& b) { return depth(b, p.x) > 0; }))
-      continue;
-    p.v /= scale;
+    ContactStep p;
+    for (int c = 0; c < 3; ++c) {
+      x[c] = cloth_.row(vector_x, i, c) + j, v[c] = cloth_.row(vector_v, i, c) + j;
+      p.old_x[c] = old_row(i, c)[j], p.x[c] = *x[c], p.v[c] = *v[c] / scale;
+      if (!rule.at_ends) p.old_v[c] = old_velocity(i, c)[j] / scale;
+    }
+    if (!meets(cloth_.preset.bodies, rule, p)) continue;
     const ContactStep freely = p;
     collided_ = true;
     if (!collide(cloth_.preset.bodies, rule, p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
-      cloth_.row(cloth_.seen_velocity, i, c)[j] = *v[c];
+      // What damping sees is changed as much; at the ends of steps alone it becomes the same.
+      if (R& seen = cloth_.row(cloth_.seen_velocity, i, c)[j]; &seen != v[c])
+        seen = rule.at_ends ? *v[c] : R(seen + (p.v[c] - freely.v[c]) * scale);
       // A body that was moved into the cloth may push a particle further than it would have gone.
       max_displacement_[0] = std::max(max_displacement_[0], std::abs(*x[c] - old_row(i, c)[j]));
     }
@@ -306,7 +313,7 @@ void Band<R, Present>::sweep_rows(int i, int count) {
   const bool last = pass_.last, bodies = pass_.bodies, assigns = pass_.assigns;
   const int end = i + count;
   assert(i >= begin_ && end <= end_ && count > 0 && count <= block_);
-  if (bodies || (last && assigns)) save_rows(i, count);
+  if (bodies || (last && assigns)) save_rows(i, count, bodies);
   for (int pair = i; pair < end; pair += 2) {
     point_at_pair(pass_.task, s, *pass_.tears, pair);
     forces_on_pair(pass_.task, assigns ? Update::force : s.update);
@@ -336,7 +343,7 @@ void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignmen
   begin_sums(assignments);
   for (int i = begin_; i < end_; i += block_) {
     const int count = rows_of(i, block_);
-    if (last) save_rows(i, count);
+    if (last) save_rows(i, count, bodies);
     sum_rows(i, count);
     for (int row = i; bodies && row < i + count; ++row)
       if (touches(row)) collide_row(row);

@@ -16,6 +16,7 @@
 #include "core/engines/cpu/parts.h"
 #include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
+#include "core/forces/contact.h"
 #include "core/forces/force.h"
 #include "core/forces/linear_springs.h"
 #include "core/integrators/scheme.h"
@@ -77,6 +78,7 @@ struct Cloth {
   unsigned features = 0;
   bool keeps_displacement = false;
   bool notes_contacts = false;   ///< whether bands record what bodies stop
+  Contacts contacts;             ///< the rule of contacts; its dt is that of the present step
   int seen_velocity = vector_v;  ///< vector that damping uses at the start of a step
   std::vector<Field> vectors;
   std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row by row
@@ -115,8 +117,8 @@ class Band {
   /// Covers other rows from now on: on no side where the first ones ended at the cloth's edge may these end within it.
   void cover(int begin, int end);
   /// Allocates buffers, before the first sweep. `old_rows`: also for the positions before a pair is overwritten, for
-  /// bodies and for watching the motion in methods with more vectors.
-  void allocate(bool old_rows);
+  /// bodies and for watching the motion in methods with more vectors; `old_velocities`: for contacts within the step.
+  void allocate(bool old_rows, bool old_velocities);
 
   /// Copies the neighbors' rows that this band reads: before a sweep, while no thread writes.
   void copy_halo(const ResolvedSweep& sweep);
@@ -163,14 +165,15 @@ class Band {
   void fix_row(int i);
   void begin_sums(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments);
   void sum_rows(int i, int count);
-  void save_rows(int i, int count);
+  void save_rows(int i, int count, bool bodies);
   void sweep_rows(int i, int count);
   void restore_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
-  bool touches(int i) const;
+  bool touches(int i);
   void collide_row(int i);
   void watch_rows(int i, int count);
   void measure(const ResolvedEstimate& estimate, const ResolvedSweep& sweep, int i);
   R* old_row(int i, int c) { return old_rows_.row((i - begin_) & (block_ - 1), c); }
+  R* old_velocity(int i, int c) { return old_velocities_.row((i - begin_) & (block_ - 1), c); }
   R* force_row(int i, int c) { return ring_.row((i - begin_) & (2 * block_ - 1), c); }
 
   /// The sweep being made.
@@ -189,6 +192,7 @@ class Band {
   int block_;              ///< rows, a power of 2: forces on this many come before sums, bodies and the watch
   Field ring_;             ///< force rows of the present block and of the next, which its last pair begins
   Field old_rows_;         ///< positions of a block before it is overwritten
+  Field old_velocities_;   ///< and velocities, for contacts within the step
   Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;

@@ -122,6 +122,7 @@ void CpuEngine<R, Present>::resolve() {
   start_ = scheme_->start.empty() ? ResolvedSweep() : resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
   make_waves();  // the last that takes memory
   cloth_.features = features_of(cloth_.preset);
+  cloth_.contacts = contacts_of(cloth_.preset, cloth_.dt, std::numeric_limits<R>::epsilon());
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,
@@ -205,7 +206,7 @@ void CpuEngine<R, Present>::make_waves() {
   waves_.reserve(wanted);
   while (waves_.size() < wanted) waves_.push_back(std::make_unique<Band<R, Present>>(cloth_, 0, cloth_.lattice.rows));
   for (auto* list : {&bands_, &waves_})
-    for (auto& band : *list) band->allocate(keeps_old_rows());
+    for (auto& band : *list) band->allocate(keeps_old_rows(), meets_within_steps(cloth_.preset));
 }
 
 template <class R, unsigned Present>

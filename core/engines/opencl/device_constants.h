@@ -21,11 +21,17 @@ struct DeviceConstants {
   R c[most_coefficients] = {};
 };
 
-/// Body of bodies.cl; B is double where the device has it.
+/// ContactRule of contact.cl; B is double where the device has it.
+template <class B>
+struct DeviceContactRule {
+  B dt, epsilon, g, share, kick, lag;
+  std::int32_t at_ends, unused;
+};
+
+/// Body of body.cl.
 template <class B>
 struct DeviceBody {
   B c[3], r, y, friction, restitution;
-  B rest_speed;
   B touch;
   std::int32_t plane, unused;
 };
@@ -44,6 +50,16 @@ struct DeviceLinear {
   R own = 1;
   R straight = 0, diagonal = 0, bending = 0;
   R shortest = 0;
+  R linear = 0;
+};
+
+/// Share of tears.cl.
+template <class R>
+struct DeviceShare {
+  R constant = 0;
+  std::int32_t direction = 0, di = 0, dj = 0;
+  std::int32_t last_row = 0, first_column = 0, last_column = 0, springs = 0;
+  std::int32_t bit[6] = {}, spring_di[6] = {}, spring_dj[6] = {};
 };
 
 /// Gradients of implicit.cl.

@@ -145,10 +145,15 @@ int DeviceSolver<R>::set_system(const Kernel& kernel) const {
   const double h = task_.h, L = p.L;
   constexpr double shortest = 1e-9;  // as in spring-inl.h
   const auto [stretch, bend] = spring_constants(p);
-  const DeviceLinear<R> linear{R(h * h * stretch / p.m),  R(h * h * bend / p.m),
-                               R(h * p.k_d / p.m),        R(own_stiffness(p, h)),
-                               R(directions[0].rest * L), R(directions[2].rest * L),
-                               R(directions[4].rest * L), R(shortest * directions[4].rest * L)};
+  const DeviceLinear<R> linear{R(h * h * stretch / p.m),
+                               R(h * h * bend / p.m),
+                               R(h * p.k_d / p.m),
+                               R(own_stiffness(p, h)),
+                               R(directions[0].rest * L),
+                               R(directions[2].rest * L),
+                               R(directions[4].rest * L),
+                               R(shortest * directions[4].rest * L),
+                               R(h * h / p.m)};
   const cl_mem masks = state_.masks(), coefficients = coefficients_.get(), blocks = blocks_.get(), d = step_.get(),
                r = left_.get(), z = preconditioned_.get(), q = product_.get();
   return set_arguments(kernel, 0, masks, coefficients, blocks, d, r, z, q, cl_int(state_.stride()),
@@ -210,7 +215,7 @@ void DeviceSolver<R>::linearize() {
   arrive();
   const Kernel& kernel = task_.kernels->linearise;
   const cl_mem x = state_.vector(task_.position);
-  set_arguments(kernel, set_system(kernel), x);
+  set_arguments(kernel, set_system(kernel), x, task_.constants);
   launch(kernel, groups_);
 }
 

@@ -48,6 +48,7 @@ class DeviceSolver final : private implicit::EitherStage {
     const Kernels* kernels;
     const Preset* preset;
     const std::vector<int>* fixed;  ///< particles that keep their velocity
+    cl_mem constants;               ///< of forces that are linear in positions; null if there are none
     int position, velocity;         ///< vectors
     double h;                       ///< β dt
     Residual residual;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/forces/force.h"
+#include "core/forces/linear_springs.h"
 #include "core/io/output_file.h"
 #include "core/io/system_files.h"
 
@@ -68,7 +69,9 @@ std::string program_features(const Preset& preset, bool contacts) {
   std::string text;
   if (force::damping.on(preset)) text += " -D DAMPING";
   if (preset.kind == Kind::one_weight) return text + " -D ONE_WEIGHT";
-  if (force::bend.on(preset)) text += " -D BENDING";
+  const bool linear = LinearSprings<float>::exist(preset);
+  if (force::bend.on(preset) || linear) text += " -D BENDING";
+  if (linear) text += " -D LINEAR";
   if (force::wind.on(preset)) text += " -D WIND";
   if (meets_bodies(preset)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
   return text;

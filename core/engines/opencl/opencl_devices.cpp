@@ -54,10 +54,4 @@ bool runs_on_opencl(const Scheme& method) {
   return !projects(method) && !chooses_steps(method) && !solves_damping(method) && !counts_passes(method);
 }
 
-const Force* missing_on_opencl(const Preset& preset) {
-  const auto force = std::find_if(force::all.begin(), force::all.end(),
-                                  [&](const Force* one) { return one->linear != nullptr && one->on(preset); });
-  return force == force::all.end() ? nullptr : *force;
-}
-
 }  // namespace tyglab

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "core/cloth/state.h"
 #include "core/engines/opencl/device.h"
@@ -10,18 +11,13 @@
 #include "core/engines/opencl/program_text.h"
 #include "core/forces/contact.h"
 #include "core/forces/force.h"
+#include "core/forces/linear_springs.h"
 #include "core/model/effect.h"
 
 namespace tyglab::opencl {
 namespace {
 
 constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
-
-void refuse_missing(const Preset& preset) {
-  if (const Force* force = missing_on_opencl(preset))
-    throw EngineError("The OpenCL engine does not compute " + std::string(force->symbol) +
-                      "; use the CPU engine (--engine cpu), or " + std::string(force->constant(preset)) + " = 0");
-}
 
 template <class R>
 constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
@@ -79,6 +75,7 @@ typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& pr
   kernels.combine = program->kernel("combine");
   kernels.tear = program->kernel("tear");
   kernels.derive_masks = program->kernel("derive_masks");
+  if (LinearSprings<R>::exist(preset)) kernels.derive_linear = program->kernel("derive_linear");
   kernels.look = program->kernel("look");
   if constexpr (std::is_same_v<R, double>) kernels.to_float = program->kernel("to_float");
   return kernels;
@@ -118,6 +115,7 @@ void OpenClEngine<R>::resolve() {
     resolved_.push_back({&pass.sweep, constants(over, summed), pass.work});
   }
   upload_bodies();
+  upload_shares();
   guard_.set_rules({.tearing = tears_watched(), .F_release = preset_.F_release, .costly_steps = is_implicit(*scheme_)});
   guard_.set_scene(preset_, lattice_, held_);
   guard_.invalidate();
@@ -133,27 +131,27 @@ template <class R>
 template <class B>
 void OpenClEngine<R>::upload_bodies_as() {
   constexpr double epsilon = std::numeric_limits<R>::epsilon();
+  const Contacts rule = contacts_of(preset_, preset_.dt, epsilon);
+  const DeviceContactRule<B> head{
+      B(rule.dt),  B(rule.epsilon), B(rule.g), B(rule.shape.position), B(rule.shape.last_kick),
+      B(rule.lag), rule.at_ends,    0};
   std::vector<DeviceBody<B>> list;
   for (const Body& b : preset_.bodies) {
     const bool plane = b.shape == Body::Shape::plane;
     // Rounding of the quick test is left to the exact one, as in Band::touches.
     const double reach = b.r + contact_tolerance(b, b.c, epsilon);
+    const double height = b.y + contact_tolerance(b, {0, b.y, 0}, 2 * epsilon);
     const R touch =
-        plane ? std::nextafter(R(b.y), std::numeric_limits<R>::max()) : R(reach * reach * (1 + 9 * epsilon));
-    list.push_back({{B(b.c.x), B(b.c.y), B(b.c.z)},
-                    B(b.r),
-                    B(b.y),
-                    B(b.friction),
-                    B(b.restitution),
-                    B(rest_speed(b, preset_.g, preset_.dt)),
-                    B(touch),
-                    plane,
-                    0});
+        plane ? std::nextafter(R(height), std::numeric_limits<R>::max()) : R(reach * reach * (1 + 9 * epsilon));
+    list.push_back(
+        {{B(b.c.x), B(b.c.y), B(b.c.z)}, B(b.r), B(b.y), B(b.friction), B(b.restitution), B(touch), plane, 0});
   }
-  const std::size_t bytes = list.size() * sizeof list[0];
+  std::vector<std::byte> bytes(sizeof head + list.size() * sizeof list[0]);
+  std::memcpy(bytes.data(), &head, sizeof head);
+  std::memcpy(bytes.data() + sizeof head, list.data(), bytes.size() - sizeof head);
   cl_int code = CL_SUCCESS;
-  bodies_ =
-      Memory(clCreateBuffer(device_->context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes, list.data(), &code));
+  bodies_ = Memory(
+      clCreateBuffer(device_->context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes.size(), bytes.data(), &code));
   check(code, "allocating a buffer");
 }
 
@@ -188,11 +186,11 @@ template <class R>
 void OpenClEngine<R>::launch_sweep(const Kernel& kernel, int at, const Constants& k, int slot, int levels) const {
   assert(slot >= 0 && slot <= idle_slot && levels >= 1 && levels <= levels_);
   const cl_mem masks = state_.masks(), reports = reports_.get(), hand = hand_.get(), bodies = bodies_.get(),
-               contact_list = contact_list_.get(), scratch = scratch_.get();
+               contact_list = contact_list_.get(), scratch = scratch_.get(), linear = linear_.get();
   set_arguments(kernel, at, scratch, cl_int(bands_), cl_int(levels), cl_int(band_numbers_), masks,
                 cl_int(state_.stride()), cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns),
                 k, reports, hand, cl_int(slot), cl_int(held_.particle), bodies, cl_int(preset_.bodies.size()),
-                contact_list);
+                contact_list, linear);
   if (width_ == 1) {
     launch_rows(kernel, lattice_.columns);
     return;
@@ -232,8 +230,9 @@ bool OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
     launch_sweep(kernels_.residual, at, resolved.constants, slot, 1);
   };
   const double pass = double(&resolved - resolved_.data()), passes = double(resolved_.size());
-  return solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
-                         resolved.sweep->solves * preset_.dt, residual, repeating_ ? Stop{} : stop(),
+  return solver_->solve({&kernels_.solver, &preset_, &fixed, linear_.get(), resolved.sweep->position,
+                         resolved.sweep->velocity, resolved.sweep->solves * preset_.dt, residual,
+                         repeating_ ? Stop{} : stop(),
                          [&](double part) { set_step_progress((pass + part) / passes); }});
 }
 
@@ -303,7 +302,6 @@ void OpenClEngine<R>::synchronize(const Tears& tears) {
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
-  refuse_missing(preset);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
@@ -401,11 +399,55 @@ void OpenClEngine<R>::upload_masks(const Tears& tears) {
   if (held_.particle >= 0) fix(held_.particle);
   state_.upload(springs, state_.springs());
   state_.upload(guards, guards_.get());
-  const cl_mem none = nullptr, from = state_.springs(), to = state_.masks();
-  set_arguments(kernels_.derive_masks, 0, from, to, none, cl_int(0), cl_int(state_.mask_pitch()), cl_int(lattice_.rows),
-                cl_int(lattice_.columns));
-  launch_rows(kernels_.derive_masks, lattice_.columns);
+  derive(nullptr, 0);
   masks_stale_ = false;
+}
+
+template <class R>
+void OpenClEngine<R>::derive(cl_mem report, int slot) {
+  const cl_mem springs = state_.springs(), masks = state_.masks(), linear = linear_.get(), shares = shares_.get();
+  const auto launch = [&](const Kernel& kernel, auto... further) {
+    set_arguments(kernel, 0, springs, further...);
+    launch_rows(kernel, lattice_.columns);
+  };
+  const cl_int pitch = state_.mask_pitch(), rows = lattice_.rows, columns = lattice_.columns;
+  launch(kernels_.derive_masks, masks, report, cl_int(slot), pitch, rows, columns);
+  if (share_count_ > 0)
+    launch(kernels_.derive_linear, linear, report, cl_int(slot), pitch, rows, columns, shares, cl_int(share_count_));
+}
+
+template <class R>
+void OpenClEngine<R>::upload_shares() {
+  const bool had = share_count_ > 0;
+  std::vector<DeviceShare<R>> list;
+  for (const auto& share : LinearSprings<R>::shares_of(preset_, 1)) {
+    const Stencil& stencil = *share.stencil;
+    assert(stencil.owners == Stencil::Owners::all && stencil.springs <= int(std::size(DeviceShare<R>{}.bit)));
+    DeviceShare<R> one{.constant = R(share.constant), .direction = share.direction, .di = share.di, .dj = share.dj};
+    for (int n = 0; n < stencil.points; ++n) {
+      const Stencil::Point& point = stencil.at[std::size_t(n)];
+      one.last_row = std::max(one.last_row, point.di);
+      one.first_column = std::min(one.first_column, point.dj), one.last_column = std::max(one.last_column, point.dj);
+    }
+    one.springs = stencil.springs;
+    for (int n = 0; n < stencil.springs; ++n) {
+      const Stencil::Spring& spring = stencil.spring[std::size_t(n)];
+      one.bit[n] = 1 << spring.direction, one.spring_di[n] = spring.di, one.spring_dj[n] = spring.dj;
+    }
+    list.push_back(one);
+  }
+  share_count_ = int(list.size());
+  masks_stale_ |= had || share_count_ > 0;
+  if (list.empty()) return;
+  if (!linear_) {
+    constexpr std::size_t margin = 32;
+    linear_ = device_->zeros(
+        ((std::size_t(lattice_.rows) + 5) * directions.size() * std::size_t(state_.mask_pitch()) + margin) * sizeof(R));
+  }
+  cl_int code = CL_SUCCESS;
+  shares_ = Memory(clCreateBuffer(device_->context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                                  list.size() * sizeof list[0], list.data(), &code));
+  check(code, "allocating a buffer");
 }
 
 template <class R>
@@ -424,7 +466,6 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
                       "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet");
-  refuse_missing(preset);
   // Where there is no device, open_device() says so.
   if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);

@@ -81,7 +81,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   /// The kernels for one set of features.
   struct Kernels {
     std::vector<Kernel> passes;  ///< an empty one for a solution
-    Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, look, to_float;
+    Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, derive_linear, look, to_float;
     typename DeviceSolver<R>::Kernels solver;
   };
   /// A sweep with its constants; for a solution, those of its residual.
@@ -117,6 +117,10 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   Constants constants(const Preset& preset, const Sweep& sweep) const;
   void resolve();
   void upload_bodies();
+  /// Shares of the springs that take over what forces do that are linear in positions (linear_springs.h).
+  void upload_shares();
+  /// Makes the masks, and the constants of those springs, from what is whole. `report`: of the look before, or null.
+  void derive(cl_mem report, int slot);
   template <class B>
   void upload_bodies_as();
   void read_contacts(std::uint32_t count);
@@ -180,7 +184,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   Memory scratch_;
   mutable Kernels kernels_;
   std::string options_;
-  Memory guards_, reports_, hand_, fixed_list_, bodies_, contact_list_;
+  Memory guards_, reports_, hand_, fixed_list_, bodies_, contact_list_, shares_, linear_;
+  int share_count_ = 0;
   std::vector<int> pinned_;
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;

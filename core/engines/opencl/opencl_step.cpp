@@ -28,10 +28,7 @@ void OpenClEngine<R>::enqueue_tear(int slot) {
   device_->facts().fp64 ? set(double()) : set(float());
   constexpr int of_card = 32;  // work-items a row
   launch_rows(kernels_.tear, width_ == 1 ? of_card : 1);
-  const cl_mem from = state_.springs(), to = state_.masks(), reports = reports_.get();
-  set_arguments(kernels_.derive_masks, 0, from, to, reports, cl_int(slot), cl_int(state_.mask_pitch()),
-                cl_int(lattice_.rows), cl_int(lattice_.columns));
-  launch_rows(kernels_.derive_masks, lattice_.columns);
+  derive(reports_.get(), slot);
 }
 
 template <class R>

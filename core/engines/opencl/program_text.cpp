@@ -48,12 +48,13 @@ std::string update_text(const Wanted& wanted) {
                                                                    : "load(" + numbered("i", n) + " + at, stride)";
     text += "    vec " + numbered("y", n) + " = " + from + ";\n";
   }
-  if (wanted.last) text += "    const vec old = y0;\n";
+  if (wanted.last) text += "    const vec old = y0, old_v = y1;\n";
   int next = 0;
   for (const Assignment& assignment : sweep.assignments)
     text += "    " + numbered("y", assignment.target) + " = " + sum_text(assignment, next) + ";\n";
   if (wanted.last) {
-    text += "    MEET_BODIES(old, y0, y1, " + numbered("y", wanted.seen) + ");\n";
+    text += "    MEET_BODIES(old, old_v, y0, y1, " + numbered("y", wanted.seen) +
+            (wanted.seen == vector_v ? ", 1);\n" : ", 0);\n");
     text += "    most = max(most, ways(old, y0, y1, k->to_way));\n";
   }
   for (const Assignment& assignment : sweep.assignments)
@@ -80,7 +81,8 @@ std::string row_text(const Sweep& sweep) {
   const std::string P = std::to_string(sweep.position), V = std::to_string(sweep.velocity);
   return "    const Row r = {i" + P + ", IN(" + P + ", in" + P + ", 1), IN(" + P + ", in" + P + ", 2), i" + V +
          ", IN(" + V + ", in" + V +
-         ", 1), RING(0), RING(1), RING(2), masks + place(row, 0, mask_pitch), stride, mask_pitch, row};\n"
+         ", 1), RING(0), RING(1), RING(2), masks + place(row, 0, mask_pitch), stride, mask_pitch, row, linear + "
+         "place(row, 0, linear_parts * mask_pitch)};\n"
          "    if (row == first) clear_row(r.f0, pitch), clear_row(r.f1, pitch);\n"
          "    Carry carry = {{ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}};\n";
 }
@@ -152,7 +154,8 @@ const Sweep& residual() {
 std::string program_text(const Scheme& scheme) {
   const int vectors = scheme.vectors, seen = seen_velocity(scheme);
   std::string text;
-  for (const char* file : {"cloth.cl", "gather.cl", "band.cl", "bodies.cl", "sweep.cl", "tears.cl"})
+  for (const char* file :
+       {"cloth.cl", "gather.cl", "band.cl", "body.cl", "contact.cl", "bodies.cl", "sweep.cl", "tears.cl"})
     text += kernel_text(file);
   const std::vector<Pass> list = passes(scheme);
   for (std::size_t n = 0; n < list.size(); ++n)

@@ -64,29 +64,30 @@ void Cloth::start(const Tears& tears) {
 
 void Cloth::step(const Tears& tears) {
   if (synchronized && !scheme->start.empty()) start(tears);
-  const Vector before = vectors[vector_x];
+  Vector x_before, v_before;
   for (const Sweep& sweep : scheme->sweeps) {
     const double per = power(preset.dt, sweep.velocity_dt_power);
+    x_before = vectors[vector_x], v_before = vectors[vector_v];
     assign(sweep.assignments, accelerations(sweep.position, sweep.velocity, per, tears, sweep.external));
   }
-  collide(before);
+  collide(x_before, v_before);
 }
 
-/// Bodies correct the positions and velocities of particles that the step has moved into them.
-void Cloth::collide(const Vector& before) {
+/// Bodies correct the positions and velocities of particles that meet them in the step. Vectors: before its last sweep,
+/// up to which no position changes.
+void Cloth::collide(const Vector& x_before, const Vector& v_before) {
   const double scale = velocity_scale();
-  const ContactRule rule{preset.dt, preset.g, std::numeric_limits<double>::epsilon()};
+  const Contacts rule = contacts_of(preset, preset.dt, std::numeric_limits<double>::epsilon());
   contacts.clear(), left_inside = 0, largest = 0;
   Vector &x = vectors[vector_x], &v = vectors[vector_v];
   for (std::size_t p = 0; p < x.size(); ++p) {
-    ContactStep now{before[p], x[p], v[p] / scale};
+    ContactStep now{x_before[p], v_before[p] / scale, x[p], v[p] / scale};
     const ContactStep freely = now;
-    const bool inside =
-        preset.kind == Kind::cloth && fixed[p] == 0 &&
-        std::any_of(preset.bodies.begin(), preset.bodies.end(), [&](const Body& b) { return depth(b, now.x) > 0; });
-    if (inside) {
+    if (preset.kind == Kind::cloth && fixed[p] == 0 && meets(preset.bodies, rule, now)) {
       if (!tyglab::collide(preset.bodies, rule, now)) ++left_inside;
-      x[p] = now.x, v[p] = seen()[p] = now.v * scale;
+      const glm::dvec3 seen_then = rule.at_ends ? now.v * scale : seen()[p] + (now.v - freely.v) * scale;
+      x[p] = now.x, v[p] = now.v * scale;
+      if (&seen() != &v) seen()[p] = seen_then;
       contacts.push_back({int(p), freely.x - now.x, freely.v - now.v});
     }
     for (int c = 0; c < 3; ++c)

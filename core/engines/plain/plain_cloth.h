@@ -56,7 +56,7 @@ struct Cloth {
 
  private:
   void assign(const std::vector<Assignment>& assignments, const Vector& a);
-  void collide(const Vector& before);
+  void collide(const Vector& x_before, const Vector& v_before);
 };
 
 }  // namespace tyglab::plain

@@ -1,0 +1,269 @@
+// Contact within the step (kernels/contact.cl) against closed forms, and its order from both sides.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "core/integrators/scheme.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab::contact_test {
+
+constexpr double g = 9.82;
+
+/// A particle that no spring pulls, at (0, 0); another hangs from the sky far above, out of the way.
+Preset particle(const std::string& integrator, glm::dvec3 x, glm::dvec3 v) {
+  Preset preset = test::quiet_cloth(2, 1, integrator);
+  preset.k_s = 0, preset.g = g, preset.dt = 1e-3;
+  preset.x_0 = x, preset.v_0 = v;
+  preset.tilt_deg = -90;
+  preset.L = 0.5;
+  return preset;
+}
+
+Body plane(double friction, double restitution) {
+  Body body;
+  body.shape = Body::Shape::plane;
+  body.friction = friction, body.restitution = restitution;
+  return body;
+}
+
+Body ball(glm::dvec3 c, double r, double friction = 0, double restitution = 0) {
+  Body body;
+  body.c = c, body.r = r, body.friction = friction, body.restitution = restitution;
+  return body;
+}
+
+glm::dvec3 x_of(Simulation& simulation) {
+  return test::position(simulation.read(), 0);
+}
+glm::dvec3 v_of(Simulation& simulation) {
+  return test::velocity(simulation.read(), 0);
+}
+
+/// Of fixed dt and at least second order: their free fall is exact.
+const std::vector<std::string> second_order{"verlet",          "velocity_verlet",   "rk4",    "rkn4",
+                                            "force_gradient4", "implicit_midpoint", "tr_bdf2"};
+
+TEST_CASE("what a step makes of a constant acceleration is known for every method") {
+  for (const Scheme& method : schemes()) {
+    CAPTURE(method.name);
+    const StepShape shape = step_shape(method);
+    const auto is = [&](double position, double last_kick) {
+      CHECK(shape.position == doctest::Approx(position));
+      CHECK(shape.last_kick == doctest::Approx(last_kick));
+    };
+    const std::string name(method.name);
+    if (name == "euler")
+      is(0, 1);
+    else if (name == "force_gradient4")
+      is(2.0 / 3, 2.0 / 3);
+    else if (method.order_undamped == 1 && name != "improved_euler")
+      is(1, 1);
+    else
+      is(method.lag == 0.5 ? 1 : 0.5, 1);
+  }
+}
+
+TEST_CASE("a ball that loses nothing returns to its height a hundred times") {
+  for (const std::string& method : second_order) {
+    CAPTURE(method);
+    constexpr double height = 0.3;
+    Preset preset = particle(method, {0, height, 0}, {0, 0, 0});
+    preset.bodies = {plane(0, 1)};
+    Simulation simulation(preset);
+    const double between = 2 * std::sqrt(2 * height / g);
+    for (int bounce = 1; bounce <= 100; ++bounce) {
+      simulation.advance(int(std::lround(bounce * between / preset.dt)) - int(simulation.steps()));
+      const glm::dvec3 x = x_of(simulation), v = v_of(simulation);
+      // Near its highest point: the height that it would reach.
+      CHECK(std::abs(x.y + v.y * v.y / (2 * g) - height) < 1e-6);
+      CHECK(std::abs(simulation.steps() * preset.dt - bounce * between - v.y / -g) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("bounces end when their series does, and nothing hovers") {
+  for (const Scheme& method : schemes()) {
+    if (method.name == "euler") continue;
+    for (const double e : {0.0, 0.3, 0.5, 0.8, 0.9}) {
+      for (const double dt : {1e-3, 4e-3}) {
+        CAPTURE(method.name);
+        CAPTURE(e);
+        constexpr double height = 0.3;
+        Preset preset = particle(std::string(method.name), {0, height, 0}, {0, 0, 0});
+        preset.dt = dt;
+        preset.bodies = {plane(0, e)};
+        const double rest = std::sqrt(2 * height / g) * (1 + e) / (1 - e);
+        Simulation simulation(preset);
+        simulation.advance(int(0.9 * rest / dt));
+        const auto moves = [&] { return x_of(simulation).y != 0 || std::abs(v_of(simulation).y) > 1e-9; };
+        if (e > 0) CHECK(moves());
+        // The last bounces are shorter than a step; of a method of first order they are off by as much.
+        simulation.advance(int(std::ceil((0.1 * rest + (1 + e) / (1 - e) * 8 * dt) / dt)));
+        for (int look = 0; look < 20; ++look) {
+          CHECK_FALSE(moves());
+          simulation.advance(1);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("friction stops a slide after v²/(2 μ g), and holds it there") {
+  for (const std::string& method : second_order) {
+    for (const double dt : {1e-3, 2.5e-4}) {
+      CAPTURE(method);
+      constexpr double speed = 1.3, friction = 0.4;
+      Preset preset = particle(method, {0, 0, 0}, {speed * 0.6, 0, speed * 0.8});
+      preset.dt = dt;
+      preset.bodies = {plane(friction, 0.5)};
+      Simulation simulation(preset);
+      const double duration = speed / (friction * g), distance = speed * speed / (2 * friction * g);
+      simulation.advance(int(0.5 * duration / dt));
+      const double t = simulation.steps() * dt;
+      CHECK(glm::length(x_of(simulation)) == doctest::Approx(speed * t - friction * g * t * t / 2).epsilon(1e-9));
+      CHECK(glm::length(v_of(simulation)) == doctest::Approx(speed - friction * g * t).epsilon(1e-9));
+      simulation.advance(int(0.6 * duration / dt) + 1);
+      CHECK(std::abs(glm::length(x_of(simulation)) - distance) < 0.2 * friction * g * dt * dt);
+      const glm::dvec3 then = x_of(simulation);
+      simulation.advance(500);
+      CHECK(glm::length(x_of(simulation) - then) < 1e-12);
+      CHECK(glm::length(v_of(simulation)) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a particle slides off a smooth sphere at cos θ = 2/3, and sticks where friction holds it") {
+  for (const std::string& method : second_order) {
+    CAPTURE(method);
+    constexpr double r = 0.3, from = 0.2;  // rad
+    std::vector<double> errors;
+    for (const double dt : {2e-3, 1e-3, 5e-4}) {
+      Preset preset = particle(method, r * glm::dvec3(std::sin(from), std::cos(from), 0), {0, 0, 0});
+      preset.dt = dt;
+      preset.bodies = {ball({0, 0, 0}, r)};
+      Simulation simulation(preset);
+      // From energy: v² = 2 g r (cos θ_0 - cos θ), and it leaves at cos θ = 2/3 cos θ_0. Sliding, looked at before.
+      while (x_of(simulation).y > 0.8 * r) simulation.advance(1);
+      const glm::dvec3 x = x_of(simulation), v = v_of(simulation);
+      CHECK(std::abs(glm::length(x) - r) < 1e-14);
+      CHECK(std::abs(glm::dot(glm::normalize(v), x / r)) < 1e-4);
+      errors.push_back(std::abs(glm::dot(v, v) / 2 + g * x.y - g * r * std::cos(from)));
+      while (glm::length(x_of(simulation)) - r < 1e-12) simulation.advance(1);
+      CHECK(x_of(simulation).y / r == doctest::Approx(2.0 / 3 * std::cos(from)).epsilon(0.01));
+    }
+    CAPTURE(errors[0]);
+    CAPTURE(errors[2]);
+    CHECK(errors[0] < 2e-4);
+    CHECK(errors[2] < errors[0] / 10);  // order 2: 16 times less
+
+    Preset rough = particle(method, r * glm::dvec3(std::sin(from), std::cos(from), 0), {0, 0, 0});
+    rough.bodies = {ball({0, 0, 0}, r, 1.05 * std::tan(from))};
+    Simulation sticks(rough);
+    const glm::dvec3 start = x_of(sticks);
+    sticks.advance(2000);
+    CHECK(glm::length(x_of(sticks) - start) < 1e-9);
+    rough.bodies[0].friction = 0.95 * std::tan(from);
+    Simulation slides(rough);
+    slides.advance(1000);
+    CHECK(glm::length(x_of(slides) - start) > 0.01);
+  }
+}
+
+TEST_CASE("nothing passes through a body between two steps") {
+  for (const Scheme& method : schemes()) {
+    for (const Precision precision : {Precision::double_, Precision::float_}) {
+      CAPTURE(method.name);
+      Preset preset = particle(std::string(method.name), {0.01, 3, 0.02}, {0, -1000, 0});
+      preset.precision = precision;
+      preset.dt = 0.01;
+      preset.bodies = {ball({0, 0, 0}, 0.2)};
+      Simulation simulation(preset);
+      simulation.advance(1);
+      const glm::dvec3 x = x_of(simulation);
+      CHECK(glm::length(x) > 0.2 * (1 - 1e-6));
+      CHECK(x.y > 0);
+      preset.bodies[0].restitution = 1;
+      Simulation elastic(preset);
+      elastic.advance(1);
+      CHECK(x_of(elastic).y > 1);
+    }
+  }
+}
+
+TEST_CASE("between bodies no method gains energy by contact") {
+  for (const std::string& method : {std::string("verlet"), std::string("rk4")}) {
+    test::Random random(7);
+    for (int scene = 0; scene < 40; ++scene) {
+      CAPTURE(scene);
+      Preset preset = particle(method, {random.uniform(-0.3, 0.3), 0.6, random.uniform(-0.3, 0.3)},
+                               {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)});
+      preset.dt = random.uniform(2e-4, 8e-3);
+      preset.bodies = {plane(random.uniform(0, 1), random.uniform(0.5, 1)),
+                       ball({0, 0.1, 0}, 0.25, random.uniform(0, 1), random.uniform(0.5, 1)),
+                       ball({0.5, 0.3, 0}, 0.2, random.uniform(0, 1), random.uniform(0.5, 1))};
+      Simulation simulation(preset);
+      const auto energy = [&] { return glm::dot(v_of(simulation), v_of(simulation)) / 2 + g * x_of(simulation).y; };
+      double before = energy();
+      for (int step = 0; step < 1500; ++step) {
+        simulation.advance(1);
+        const double now = energy();
+        CHECK(now <= before + 1e-3 * g * preset.dt);
+        before = now;
+      }
+    }
+  }
+}
+
+/// The slope of log(error) over log(dt), from many dt: an error depends on where in a step the impacts fall.
+/// Without damping, by which the neighbors of a particle feel an impact's change of velocity for the rest of the step.
+double order_of(const std::string& method, const std::string& contact) {
+  Preset preset = test::cloth(3, 3, method);
+  preset.pins.mode = Pins::Mode::none;
+  preset.k_b = 0, preset.k_d = 0, preset.k_s = 20, preset.m = 0.01, preset.L = 0.1;
+  preset.x_0 = {0.02, 0.2, 0.01}, preset.tilt_deg = 40, preset.v_0 = {0.7, -0.5, 0.3}, preset.initial_stretch = 1.2;
+  preset.bodies = {plane(0.3, 0.4), ball({0.1, -0.05, 0.05}, 0.15, 0.2, 0.6)};
+  preset.contact = contact;
+  constexpr double end = 0.25;
+  const auto final_state = [&](const std::string& integrator, int steps) {
+    Preset one = preset;
+    one.integrator = integrator, one.dt = end / steps;
+    Simulation simulation(one);
+    simulation.advance(steps);
+    return simulation.read();
+  };
+  const State exact = final_state("rk4", 160'000);
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  int count = 0;
+  for (double steps = 150; steps < 3000; steps *= 1.15) {
+    const int n = int(steps);
+    const State state = final_state(method, n);
+    double error = 0;
+    for (std::size_t p = 0; p < 9; ++p)
+      error = std::max(error, glm::distance(test::position(state, p), test::position(exact, p)));
+    const double x = std::log(end / n), y = std::log(error);
+    sx += x, sy += y, sxx += x * x, sxy += x * y, ++count;
+  }
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+TEST_CASE(
+    "through bounces and slides methods keep order 2, and have order 1 where contact waits for the end of the step" *
+    doctest::test_suite("slow")) {
+  for (const std::string& method : second_order) {
+    const double local = order_of(method, "local"), at_end = order_of(method, "step");
+    CAPTURE(method);
+    CAPTURE(local);
+    CAPTURE(at_end);
+    CHECK(local > 1.8);
+    CHECK(local < 2.3);
+    CHECK(at_end > 0.7);
+    CHECK(at_end < 1.4);
+  }
+}
+
+}  // namespace tyglab::contact_test
