@@ -148,6 +148,62 @@ TEST_CASE("a clamped strip of springs that only pull is shorter where the moment
     CHECK(drop(edges, 10, false) - elastica[1].drop == doctest::Approx(5.8e-3).epsilon(0.1));
 }
 
+/// Whether a strip of 1 m that stands on edge, clamped at one end, keeps its plane under its own weight: its energy has
+/// no direction out of the plane in which it falls.
+bool stays_upright(const Preset& preset) {
+  plain::Vector x;
+  for (int i = 0; i < preset.rows; ++i)
+    for (int j = 0; j < preset.columns; ++j) x.push_back({0, -j * preset.L, i * preset.L});
+  const std::size_t fixed = 2 * std::size_t(preset.columns);
+  find_rest(preset, fixed, true, x);
+  Energy energy{preset, fixed, true};
+  energy.evaluate(x, true);
+  // Cholesky's method on the part of the Hessian that belongs to x: a pivot below 0 is such a direction.
+  const std::size_t n = x.size() - fixed;
+  std::vector<double> H(n * n);
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b < n; ++b) H[a * n + b] = energy.hessian[3 * a * (3 * n) + 3 * b];
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(H[k * n + k] > 0)) return false;
+    for (std::size_t a = k + 1; a < n; ++a) {
+      const double part = H[a * n + k] / H[k * n + k];
+      for (std::size_t b = k + 1; b < n; ++b) H[a * n + b] -= part * H[k * n + b];
+    }
+  }
+  return true;
+}
+
+/// The load q L³ at which such a strip of two columns buckles, divided by 12.854 √(EI C): S. Timoshenko, J. Gere,
+/// Theory of Elastic Stability, 2nd ed. (1961), 6.3, for a cantilever of length L. Here EI = B w, where each column
+/// stands for a part of the width w, and the twist φ per length of the cells between them has the energy twist·B w φ² =
+/// ½ C φ², so C = 2 twist·B w.
+double buckling_load(int edges, double twist) {
+  Preset preset = test::quiet_cloth(edges + 1, 2);
+  preset.L = 1.0 / edges, preset.m = 0.01 / edges, preset.k_s = 2e3, preset.B = 1e-3, preset.twist = twist;
+  const double bends = preset.B * 2 * preset.L, twists = 2 * twist * preset.B * preset.L;
+  const double load = 12.854 * std::sqrt(bends * twists);
+  double low = 0.5, high = 2;
+  while (high - low > 1e-3) {
+    const double middle = (low + high) / 2;
+    preset.g = middle * load * preset.L / (2 * preset.m);
+    (stays_upright(preset) ? low : high) = middle;
+  }
+  return low;
+}
+
+// The clamp holds half a cell more against twist than against bending, so the error is of first order.
+TEST_CASE("a strip on edge buckles sideways under its weight where a beam of that stiffness and torsion does") {
+  for (const double twist : {1.0, 0.25}) {
+    const double coarse = buckling_load(32, twist), fine = buckling_load(64, twist);
+    CAPTURE(twist);
+    CAPTURE(coarse);
+    CAPTURE(fine);
+    CHECK(std::abs(coarse - 1) < 0.13);
+    CHECK(std::abs(fine - 1) < 0.7 * std::abs(coarse - 1));
+    CHECK(std::abs(2 * fine - coarse - 1) < 0.03);
+  }
+}
+
 TEST_CASE("with twist = 1 a cloth bends onto a cylinder at any angle with ½B a curvature squared and area") {
   Preset preset = test::quiet_cloth(40, 40);
   preset.B = 1e-4;
