@@ -107,7 +107,7 @@ void contact_note(Ui& ui, ImVec2 at) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.text, {at.x, baseline}, ui.theme.colors.warning, "*");
   draw_on_baseline(draw, *ui.fonts.small, {at.x + ui.theme.px(10), baseline}, ui.theme.colors.quiet,
-                   "without the body's contact");
+                   "without contact");
 }
 
 constexpr float tick_side = 9, sample_at = 13, sample_length = 14, symbol_at = 31;  // at scale 1
@@ -242,8 +242,9 @@ void particle_panel(Ui& ui) {
     force_cell(ui, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end, newtons,
                right || k + 1 == forces.size());
   }
-  // F stands alone on the last line of the forces.
-  if (lacks_contact(shown, "F")) contact_note(ui, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});
+  // F stands alone on the last line of the forces, with its unit.
+  const float behind_unit = columns.first_end + ui.theme.px(8 + unit_at_1);
+  if (lacks_contact(shown, "F")) contact_note(ui, {lo.x + behind_unit, ImGui::GetItemRectMin().y});
   for (std::string_view key : motion) motion_line(ui, key, shown, columns);
 }
 
