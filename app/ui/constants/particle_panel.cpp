@@ -106,8 +106,7 @@ void contact_note(Ui& ui, ImVec2 at) {
   const float baseline = baseline_at(ui.fonts, std::round(at.y + line_height(ui) / 2));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.text, {at.x, baseline}, ui.theme.colors.warning, "*");
-  draw_on_baseline(draw, *ui.fonts.small, {at.x + ui.theme.px(10), baseline}, ui.theme.colors.quiet,
-                   "without contact");
+  draw_on_baseline(draw, *ui.fonts.small, {at.x + ui.theme.px(10), baseline}, ui.theme.colors.quiet, "without contact");
 }
 
 constexpr float tick_side = 9, sample_at = 13, sample_length = 14, symbol_at = 31;  // at scale 1
