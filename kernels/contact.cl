@@ -261,7 +261,8 @@ INLINE int meet_next(global const Body* bodies, int count, ContactRule rule, int
   f->path.p = at;
   f->path.u += soonest * f->path.a;
   f->left -= soonest;
-  if (buried) {  // the body was moved, a bad start: out, without an impact
+  if (buried) {  // the body was moved, a bad start: out, without an impact, unless it gets out by itself
+    if (gap_at(body, f->x) > 0) return hit;
     f->x = way_out(body, f->x, n);
     f->v -= fmin((BODY_REAL)(0), dot(f->v, n)) * n;
     return hit;

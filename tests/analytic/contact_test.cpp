@@ -195,6 +195,22 @@ TEST_CASE("nothing passes through a body between two steps") {
   }
 }
 
+TEST_CASE("a particle that begins inside a body is outside after the step, and flies through where it is fast enough") {
+  for (const Scheme& method : schemes()) {
+    CAPTURE(method.name);
+    for (const double speed : {0.0, 1.0, 1000.0}) {
+      CAPTURE(speed);
+      Preset preset = particle(std::string(method.name), {-0.1, 0, 0}, {speed, 0, 0});
+      preset.bodies = {ball({0, 0, 0}, 0.2)};
+      Simulation simulation(preset);
+      simulation.advance(1);
+      const glm::dvec3 x = x_of(simulation);
+      CHECK(glm::length(x) > 0.2 * (1 - 1e-12));
+      CHECK((speed > 100 ? std::abs(x.x - 0.9) < 1e-3 : x.x < -0.19));
+    }
+  }
+}
+
 TEST_CASE("between bodies no method gains energy by contact") {
   for (const std::string& method : {std::string("verlet"), std::string("rk4")}) {
     test::Random random(7);
