@@ -132,7 +132,8 @@ struct Elastica {
 };
 constexpr Elastica elastica[]{{1, 0.123471, 5e-4}, {10, 0.700200, 5e-4}, {100, 0.937523, 5e-4}, {1000, 0.981141, 3e-3}};
 
-TEST_CASE("a clamped strip whose threads keep their length drops as the elastica, of order 2") {
+TEST_CASE("a clamped strip whose threads keep their length drops as the elastica, of order 2" *
+          doctest::test_suite("slow")) {
   for (const auto& [G, exact, within] : elastica) {
     CAPTURE(G);
     const double coarse = drop(32, G, true) - exact, fine = drop(128, G, true) - exact;
@@ -192,7 +193,8 @@ double buckling_load(int edges, double twist) {
 }
 
 // The clamp holds half a cell more against twist than against bending, so the error is of first order.
-TEST_CASE("a strip on edge buckles sideways under its weight where a beam of that stiffness and torsion does") {
+TEST_CASE("a strip on edge buckles sideways under its weight where a beam of that stiffness and torsion does" *
+          doctest::test_suite("slow")) {
   for (const double twist : {1.0, 0.25}) {
     const double coarse = buckling_load(32, twist), fine = buckling_load(64, twist);
     CAPTURE(twist);
