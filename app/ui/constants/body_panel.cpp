@@ -190,8 +190,8 @@ void contact_row(Ui& ui) {
       ui.session.propose(std::move(next));
     }
     tooltip(ui, gui::item_id(),
-            "When bodies act: at the time of contact within the step (order 2), or at the end of the step as in the "
-            "report (order 1).");
+            "When bodies act: at the time of contact within the step (order 2 without damping), or at the end of the "
+            "step as in the report (order 1).");
   });
 }
 
