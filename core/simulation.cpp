@@ -130,6 +130,7 @@ std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattic
   engine->stop_when(stop_), engine->limit_steps(step_limit_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(fixed.pinned, fixed.held);
+  engine->next_step({t, 0});
   engine->load(rows, tears);
   return engine;
 }
@@ -354,12 +355,28 @@ void Simulation::pin(const edit::Pin& e) {
 void Simulation::move_body(const edit::MoveBody& e) {
   if (e.index < 0 || e.index >= int(preset_.bodies.size())) return;
   Preset next = preset_;
-  Body& body = next.bodies[e.index];
-  if (body.shape == Body::Shape::plane)
-    body.y = e.c.y;
+  Body& body = next.bodies[std::size_t(e.index)];
+  const Body now = body_at(body, time());
+  const bool plane = body.shape == Body::Shape::plane, moves = !(now == body);
+  const glm::dvec3 by = e.c - (plane ? glm::dvec3(0, now.y, 0) : now.c);
+  if (plane)
+    body.y = moves ? body.y + by.y : e.c.y;
   else
-    body.c = e.c;
+    body.c = moves ? body.c + by : e.c;
+  for (Body::Key& key : body.path) key.x += by;
   change(next);
+}
+
+std::vector<Body> Simulation::bodies() const {
+  std::vector<Body> all = preset_.bodies;
+  for (Body& body : all) body = body_at(body, time());
+  return all;
+}
+
+Preset Simulation::posed() const {
+  Preset preset = preset_;
+  preset.bodies = bodies();
+  return preset;
 }
 
 void Simulation::limit_steps(double seconds) {
@@ -390,6 +407,7 @@ AdvanceResult Simulation::advance_part(int steps) {
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
   if (gusts(preset_)) steps = std::min(steps, update_gust());
   if (watch_) watch_->before_step(preset_, tears_);
+  engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
   AdvanceResult part = engine_->advance(steps, tears_);
   steps_ += part.steps;
   if (part.steps > 0) untouched_ = false, ++revision_;
@@ -470,6 +488,7 @@ void Simulation::restore(const Snapshot& then) {
   steps_ = steps_at_dt_ = then.steps;
   time_at_dt_ = then.t;
   untouched_ = then.untouched;
+  engine_->next_step({time_at_dt_, 0});
   engine_->load(then.state, tears_);
   if (repeats) {
     engine_->go_on_from(*then.held);
@@ -480,6 +499,7 @@ void Simulation::restore(const Snapshot& then) {
 }
 
 void Simulation::load(const State& state) {
+  engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
   engine_->load(state, tears_);
   untouched_ = false;
   ++revision_;

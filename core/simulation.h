@@ -145,6 +145,10 @@ class Simulation {
   State read_raw();
   ParticleReadout particle(int i, int j) const;
   ForceSummary forces(Reduction reduction);
+  /// The bodies as they are now, at rest.
+  std::vector<Body> bodies() const;
+  /// The preset with those.
+  Preset posed() const;
   /// Increases whenever positions, tears or bodies change; views compare it to know whether to upload.
   std::uint64_t revision() const { return revision_; }
   std::uint64_t tear_revision() const { return tear_revision_; }

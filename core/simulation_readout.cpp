@@ -65,7 +65,8 @@ ParticleReadout Simulation::particle(int i, int j) const {
   out.x = now.x(i, j), out.v = now.v(i, j);
   out.a = out.pinned ? glm::dvec3(0) : out["F"] / preset_.m;
   out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
-                held_by_contact(preset_.bodies, preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
+                held_by_contact(placed_bodies(preset_.bodies, time(), preset_.dt, rounding_unit(preset_.precision)),
+                                preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
   return out;
 }
 
@@ -98,7 +99,9 @@ void Simulation::enable_ledger(bool on) {
 
 std::optional<LedgerReading> Simulation::ledger() const {
   if (!watch_) return std::nullopt;
-  return watch_->ledger().reading();
+  LedgerReading reading = watch_->ledger().reading();
+  reading.bodies_move = any_moves(preset_.bodies);
+  return reading;
 }
 
 void Simulation::watch_edit(Ledger::Source source) {

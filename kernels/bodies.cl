@@ -9,11 +9,13 @@ INLINE int touches(global const Body* bodies, int count, vec old, vec x) {
     global const Body* body = bodies + n;
     const realv c[3] = {(realv)((REAL)body->c[0]), (realv)((REAL)body->c[1]), (realv)((REAL)body->c[2])};
     const vec out = {x.x - c[0], x.y - c[1], x.z - c[2]};
-    const realv touch = (realv)((REAL)body->touch);
+    const realv reach = (realv)((REAL)body->reach);
     // The nearest point of the way, as a part of it back from its end.
     const realv part = square > ZERO ? clamp(dot3(out, way) / square, ZERO, (realv)(1)) : ZERO;
     const vec nearest = plus_times(out, -part, way);
-    near |= body->plane ? (x.y < touch) : (dot3(nearest, nearest) < touch);
+    const realv n[3] = {(realv)((REAL)body->axes[3]), (realv)((REAL)body->axes[4]), (realv)((REAL)body->axes[5])};
+    near |= body->shape == plane_shape ? (n[0] * x.x + n[1] * x.y + n[2] * x.z < reach)
+                                       : (dot3(nearest, nearest) < reach * reach);
   }
 #if WIDTH == 1
   return near;
@@ -22,7 +24,7 @@ INLINE int touches(global const Body* bodies, int count, vec old, vec x) {
 #endif
 }
 
-/// What steps know of bodies: as many as there are follow.
+/// What steps know of bodies: as many as there are follow, for each step of the batch if they move.
 typedef struct {
   ContactRule rule;
   Body bodies[1];
@@ -34,11 +36,11 @@ typedef struct {
   int particle, unused;
 } Contact;
 
-/// Corrects the block's free particles. `first`: number of its first particle.
-INLINE void collide_block(global const BodyList* list, int count, const Constants* k, int columns_left, int first,
+/// Corrects the block's free particles. `first`: number of its first particle; `first_body`: of the step's first body.
+INLINE void collide_block(global const BodyList* list, int first_body, int count, const Constants* k, int columns_left, int first,
                           int own, maskv fixed, vec old, vec old_v, vec* x, vec* v, vec* seen, int sees_itself,
                           global uint* report, global Contact* contacts) {
-  global const Body* bodies = list->bodies;
+  global const Body* bodies = list->bodies + first_body;
   const ContactRule rule = list->rule;
   const BODY_REAL to_velocity = k->to_velocity;
   REAL o[3][WIDTH], u[3][WIDTH], p[3][WIDTH], w[3][WIDTH], s[3][WIDTH];

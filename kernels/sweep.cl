@@ -77,15 +77,22 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
 #define ARGUMENTS                                                                                                   \
   global REAL *scratch, int bands, int levels, int band_numbers, global const uchar *masks, int stride,             \
       int mask_pitch, int rows, int columns, const Constants constants, global uint *reports, global REAL *hands,   \
-      int slot, int held, global const void *body_list, int body_count, global void *contact_list,   \
+      int slot, int held, global const void *body_list, int body_count, int bodies_move,            \
+      global void *contact_list,                                                                                    \
       global const REAL *linear
 
 #ifdef BODIES
 /// `own`: the particles are this work-item's alone, so what happens to them is counted.
 #define MEET_BODIES(old, old_v, x, v, seen, sees_itself)                                                            \
-  if (touches(((global const BodyList*)body_list)->bodies, body_count, old, x))                                     \
-  collide_block((global const BodyList*)body_list, body_count, k, columns - column, row * columns + column, own,    \
-                fixed, old, old_v, &x, &v, &seen, sees_itself, report, (global Contact*)contact_list)
+  if (touches(((global const BodyList*)body_list)->bodies + FIRST_BODY, body_count, old, x))                        \
+  collide_block((global const BodyList*)body_list, FIRST_BODY, body_count, k, columns - column,                     \
+                row * columns + column, own, fixed, old, old_v, &x, &v, &seen, sees_itself, report,                 \
+                (global Contact*)contact_list)
+#if WIDTH == 1
+#define FIRST_BODY (bodies_move * slot * body_count)
+#else
+#define FIRST_BODY (bodies_move * (slot + level) * body_count)
+#endif
 #else
 #define MEET_BODIES(old, old_v, x, v, seen, sees_itself)
 #endif

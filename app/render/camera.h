@@ -78,6 +78,8 @@ struct Bounds {
 
 /// The box of all finite particles.
 Bounds bounds(const PositionView& positions);
+/// A box round a body that rests; of what is much larger than the cloth, round the part at the cloth. None for planes.
+std::optional<Bounds> body_bounds(const Body& body, const Bounds& cloth);
 /// The box of a preset's start and of its place at rest, with its spheres: the first view of the scene.
 Bounds scene_bounds(const Preset& preset);
 /// A camera in the default direction that frames scene_bounds, between what covers those parts of the picture's height

@@ -2,12 +2,20 @@
 #include <algorithm>
 
 #include "app/render/cloth_renderer_parts.h"
+#include "core/forces/contact.h"
 
 namespace tyglab {
 namespace {
 
 constexpr float ghost_opacity = 0.9f;
 constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
+
+/// A unit sphere at that place, of that radius.
+glm::mat4 round_at(glm::vec3 center, float radius) {
+  glm::mat4 placed(radius);
+  placed[3] = glm::vec4(center, 1);
+  return placed;
+}
 
 }  // namespace
 
@@ -21,15 +29,18 @@ void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
   }
   shared->solid_depth.use();
   for (const Body& body : preset.bodies) {
-    if (body.shape != Body::Shape::sphere || one_weight()) continue;
-    shared->solid_depth.set("placed", glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)));
-    shared->sphere.draw();
+    // A tilted plane would darken all that lies below it.
+    if (body.shape == Body::Shape::plane) continue;
+    for (const SolidPart& part : parts_of(body)) {
+      shared->solid_depth.set("placed", part.placed);
+      part.mesh->draw();
+    }
   }
   if (one_weight()) {
-    shared->solid_depth.set("placed", glm::vec4(0, 0, 0, 1));
+    shared->solid_depth.set("placed", glm::mat4(1));
     spring.draw();
     hanger.draw();
-    shared->solid_depth.set("placed", glm::vec4(weight_model.weight, weight_model.radius));
+    shared->solid_depth.set("placed", round_at(weight_model.weight, weight_model.radius));
     shared->sphere.draw();
   }
   shadow.end();
@@ -81,7 +92,7 @@ void ClothRenderer::Parts::draw_plane(const Camera& camera, const ViewOptions& o
   glDepthMask(GL_TRUE);
 }
 
-void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, glm::vec3 base, float gloss) {
+void ClothRenderer::Parts::draw_solid(const SolidMesh& what, const glm::mat4& placed, glm::vec3 base, float gloss) {
   shared->solid.use();
   shared->solid.set("shadow_map", shadow_unit);
   shared->solid.set("placed", placed);
@@ -91,18 +102,53 @@ void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, g
 }
 
 void ClothRenderer::Parts::draw_bodies(const ViewOptions& options) {
-  for (const Body& body : preset.bodies) {
-    if (body.shape != Body::Shape::sphere) continue;
-    draw_solid(shared->sphere, glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)), options.palette.body, 0.12f);
+  for (const Body& body : preset.bodies)
+    for (const SolidPart& part : parts_of(body))
+      draw_solid(*part.mesh, part.placed,
+                 body.shape == Body::Shape::plane ? glm::vec3(options.palette.plane) : options.palette.body, 0.12f);
+}
+
+/// Drawn a little inside the computed surface, so that cloth that rests on it is before it. A level plane is the
+/// ground.
+std::vector<ClothRenderer::Parts::SolidPart> ClothRenderer::Parts::parts_of(const Body& body) const {
+  using Shape = Body::Shape;
+  const PlacedBody at = placed(body);
+  const glm::vec3 x(at.axes[0], at.axes[1], at.axes[2]), y(at.axes[3], at.axes[4], at.axes[5]),
+      z(at.axes[6], at.axes[7], at.axes[8]), c(at.c[0], at.c[1], at.c[2]);
+  const auto mesh_at = [&](const SolidMesh& mesh, glm::vec3 half, glm::vec3 offset = glm::vec3(0)) {
+    const glm::vec3 origin = c + offset.x * x + offset.y * y + offset.z * z;
+    return SolidPart{&mesh, glm::mat4(glm::vec4(half.x * x, 0), glm::vec4(half.y * y, 0), glm::vec4(half.z * z, 0),
+                                      glm::vec4(origin, 1))};
+  };
+  const float r = drawn_radius(body, preset.L), length = float(body.length / 2);
+  const auto within = [&](double half) { return float(half - std::min(0.12 * preset.L, 0.1 * half)); };
+  switch (body.shape) {
+    case Shape::sphere:
+      return {mesh_at(shared->sphere, glm::vec3(r))};
+    case Shape::box:
+      return {mesh_at(shared->box, {within(body.size.x / 2), within(body.size.y / 2), within(body.size.z / 2)})};
+    case Shape::cylinder:
+      return {mesh_at(shared->cylinder, {r, within(body.length / 2), r})};
+    case Shape::capsule:
+      return {mesh_at(shared->cylinder, {r, length, r}), mesh_at(shared->sphere, glm::vec3(r), {0, length, 0}),
+              mesh_at(shared->sphere, glm::vec3(r), {0, -length, 0})};
+    case Shape::plane:
+      break;
   }
+  if (body.turn == glm::dvec3(0)) return {};
+  constexpr float reach = 1.6f, thin = 0.004f;  // of the scene's radius
+  const float half = reach * scene_radius(), depth = thin * scene_radius();
+  const glm::vec3 middle = (framed.lo + framed.hi) / 2.0f - c;
+  return {mesh_at(shared->box, {half, depth, half},
+                  {glm::dot(middle, x), -depth - float(0.12 * preset.L), glm::dot(middle, z)})};
 }
 
 void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
-  const glm::vec4 here(0, 0, 0, 1);
+  const glm::mat4 here(1);
   const Palette& colors = options.palette;
   draw_solid(hanger, here, 0.6f * colors.body, 0.05f);
   draw_solid(spring, here, colors.body, 0.5f);
-  draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colors.lines, 0.25f);
+  draw_solid(shared->sphere, round_at(weight_model.weight, weight_model.radius), colors.lines, 0.25f);
   shared->solid.set("own_light", 1.0f);
   draw_solid(rest_line, here, 0.8f * colors.points, 0);
   if (options.equilibrium) draw_solid(equilibrium_line, here, colors.pins, 0);
@@ -217,7 +263,7 @@ void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
 /// Seen through whatever hangs before it, since it is there to be compared.
 void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 color, float width) {
   const WeightModel& weight = other.weight_model;
-  if (other.one_weight()) return draw_solid(shared->sphere, glm::vec4(weight.weight, weight.radius), color, 0.25f);
+  if (other.one_weight()) return draw_solid(shared->sphere, round_at(weight.weight, weight.radius), color, 0.25f);
   shared->lines.use();
   shared->lines.set("spacing", other.spacing());
   shared->lines.set("max_width", width);

@@ -95,7 +95,7 @@ bool ClothRenderer::Parts::take_written(Simulation& cloth, const ViewOptions& op
   const DrawnSites sites{cloth.lattice(), options.every};
   const PositionView sizes{sites.rows(), sites.columns(), 3 * sites.columns()};
   try {
-    take({sizes, cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), VertexWriter{&cloth.engine(), sites}},
+    take({sizes, cloth.lattice(), cloth.tears(), cloth.posed(), pins_of(cloth), VertexWriter{&cloth.engine(), sites}},
          options, moved || !written, topology_changed);
   } catch (const EngineError& error) {
     mesh.copy_from_now_on(std::string("no buffer could be shared: ") + error.what());
@@ -107,7 +107,7 @@ bool ClothRenderer::Parts::take_written(Simulation& cloth, const ViewOptions& op
 
 /// Takes positions from the simulation's memory.
 void ClothRenderer::Parts::take_read(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed) {
-  take({drawn_positions(cloth.engine()), cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), {}}, options,
+  take({drawn_positions(cloth.engine()), cloth.lattice(), cloth.tears(), cloth.posed(), pins_of(cloth), {}}, options,
        moved || written, topology_changed);
   written = false;
 }
@@ -135,11 +135,8 @@ void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& opti
     box = framed;
     box.add(weight_model.weight);
   }
-  for (const Body& body : preset.bodies) {
-    if (body.shape != Body::Shape::sphere) continue;
-    box.add(glm::vec3(body.c) - float(body.r));
-    box.add(glm::vec3(body.c) + float(body.r));
-  }
+  for (const Body& body : preset.bodies)
+    if (const auto of_body = body_bounds(body, framed)) box.add(of_body->lo), box.add(of_body->hi);
 }
 
 void ClothRenderer::Parts::take_preset(const Preset& next) {

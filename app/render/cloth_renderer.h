@@ -92,7 +92,7 @@ struct ClothScene {
 
   const Lattice& lattice;
   const Tears& tears;
-  const Preset& preset;
+  Preset preset;                         ///< with its bodies where they are
   std::function<bool(int, int)> pinned;  ///< may be empty: none is
   std::optional<VertexWriter> writer = {};
 };

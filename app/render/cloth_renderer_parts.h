@@ -44,6 +44,8 @@ struct ClothRenderer::Shared {
   gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
   ClothTexture texture;
   SolidMesh sphere{sphere_geometry(64, 40)};
+  SolidMesh box{box_geometry(glm::vec3(0), glm::vec3(1))};
+  SolidMesh cylinder{cylinder_geometry(64)};
   std::optional<ColoredCloth> colored;  ///< made when it is first asked for
   std::shared_ptr<PositionLoans> loans = std::make_shared<PositionLoans>();
 };
@@ -90,7 +92,13 @@ struct ClothRenderer::Parts {
   void draw_square(const gl::Program& program, float half);
   void draw_grid();
   void draw_plane(const Camera& camera, const ViewOptions& options);
-  void draw_solid(const SolidMesh& mesh, glm::vec4 placed, glm::vec3 base, float gloss);
+  void draw_solid(const SolidMesh& mesh, const glm::mat4& placed, glm::vec3 base, float gloss);
+  /// A unit mesh with its place in the world.
+  struct SolidPart {
+    const SolidMesh* mesh;
+    glm::mat4 placed;
+  };
+  std::vector<SolidPart> parts_of(const Body& body) const;
   void draw_bodies(const ViewOptions& options);
   void draw_weight(const ViewOptions& options);
   void set_surface(const gl::Program& program, const ViewOptions& options);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/render/camera.h"
+#include "core/forces/contact.h"
 
 namespace tyglab {
 namespace {
@@ -56,9 +57,33 @@ float lowest_hanging(const Preset& p, const Bounds& start) {
 std::optional<double> plane_below(const Preset& p, double y) {
   std::optional<double> highest;
   for (const Body& body : p.bodies)
-    if (body.shape == Body::Shape::plane && body.y <= y) highest = std::max(body.y, highest.value_or(body.y));
+    if (body.shape == Body::Shape::plane && body.turn == glm::dvec3(0) && body.y <= y)
+      highest = std::max(body.y, highest.value_or(body.y));
   return highest;
 }
+
+}  // namespace
+
+std::optional<Bounds> body_bounds(const Body& body, const Bounds& cloth) {
+  using Shape = Body::Shape;
+  if (body.shape == Shape::plane) return std::nullopt;
+  const PlacedBody at = placed(body);
+  glm::vec3 half(float(body.r));
+  for (int k = 0; k < 3 && body.shape != Shape::sphere; ++k)
+    half[k] = body.shape == Shape::box
+                  ? float(std::abs(at.axes[k]) * at.size[0] + std::abs(at.axes[3 + k]) * at.size[1] +
+                          std::abs(at.axes[6 + k]) * at.size[2])
+                  : float(body.r + std::abs(at.axes[3 + k]) * body.length / 2);
+  Bounds box{glm::vec3(body.c) - half, glm::vec3(body.c) + half};
+  // Of a table as large as a hall the part at the cloth is looked at.
+  if (body.shape == Shape::sphere || cloth.empty()) return box;
+  const glm::vec3 around(glm::length(cloth.hi - cloth.lo));
+  box.lo = glm::max(box.lo, cloth.lo - around), box.hi = glm::min(box.hi, cloth.hi + around);
+  if (glm::any(glm::lessThan(box.hi, box.lo))) return std::nullopt;
+  return box;
+}
+
+namespace {
 
 std::vector<glm::vec3> start_points(const Preset& p) {
   std::vector<glm::vec3> points;
@@ -100,13 +125,13 @@ void add_hanging_sheet(std::vector<glm::vec3>& points, const Preset& p, const Bo
 std::vector<glm::vec3> lasting_points(const Preset& p) {
   std::vector<glm::vec3> points;
   Bounds spheres;
-  for (const Body& body : p.bodies) {
-    if (body.shape != Body::Shape::sphere) continue;
-    // A draped cloth stands off from its sphere.
-    spheres.add(glm::vec3(body.c) - 1.1f * float(body.r));
-    spheres.add(glm::vec3(body.c) + 1.1f * float(body.r));
-  }
   const Bounds start = start_bounds(p);
+  for (const Body& body : p.bodies)
+    if (const auto box = body_bounds(body, start)) {
+      // A draped cloth stands off from its body.
+      const glm::vec3 more = 0.05f * (box->hi - box->lo);
+      spheres.add(box->lo - more), spheres.add(box->hi + more);
+    }
   if (!spheres.empty()) add_corners(points, spheres);
   if (hangs_from_top(p.pins)) {
     add_hanging_sheet(points, p, start);
@@ -169,11 +194,9 @@ Bounds scene_bounds(const Preset& p) {
   if (const auto plane = plane_below(p, b.hi.y)) b.lo.y = std::max(b.lo.y, float(*plane));
   // A slanted sheet swings through: leave it as much room behind its top edge as it has before it.
   if (hangs_from_top(p.pins)) b.lo.z -= 0.35f * (b.hi.z - b.lo.z);
-  for (const Body& body : p.bodies) {
-    if (body.shape != Body::Shape::sphere) continue;
-    b.add(glm::vec3(body.c) - float(body.r));
-    b.add(glm::vec3(body.c) + float(body.r));
-  }
+  const Bounds cloth = b;
+  for (const Body& body : p.bodies)
+    if (const auto box = body_bounds(body, cloth)) b.add(box->lo), b.add(box->hi);
   return b;
 }
 
@@ -235,12 +258,10 @@ Camera present_camera(const Preset& p, Bounds cloth, float aspect, float covered
   const glm::vec3 size = cloth.hi - cloth.lo, reach = glm::vec3(glm::length(size) / 2);
   std::vector<glm::vec3> seen;
   add_corners(seen, cloth);
-  for (const Body& body : p.bodies) {
-    if (body.shape != Body::Shape::sphere) continue;
-    const Bounds sphere{glm::vec3(body.c) - float(body.r), glm::vec3(body.c) + float(body.r)};
-    if (glm::all(glm::lessThan(sphere.lo, cloth.hi + reach)) && glm::all(glm::lessThan(cloth.lo - reach, sphere.hi)))
-      add_corners(seen, sphere);
-  }
+  for (const Body& body : p.bodies)
+    if (const auto box = body_bounds(body, cloth);
+        box && glm::all(glm::lessThan(box->lo, cloth.hi + reach)) && glm::all(glm::lessThan(cloth.lo - reach, box->hi)))
+      add_corners(seen, *box);
   if (size.y < 0.2f * std::max(size.x, size.z)) camera.pitch = 0.45f;  // it lies flat
   camera.frame(seen, aspect, glm::vec2(filled), covered, below);
   return camera;

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/forces/contact.h"
+
 namespace tyglab {
 namespace {
 
@@ -140,14 +142,27 @@ std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 
   return along - std::sqrt(half_chord2);
 }
 
+std::optional<double> body_surface(glm::dvec3 eye, glm::dvec3 ray, const Body& body) {
+  if (body.shape == Body::Shape::plane) return std::nullopt;
+  if (body.shape == Body::Shape::sphere) return sphere_surface(eye, ray, body.c, body.r);
+  // The distance from the surface is how far the ray can go without meeting it.
+  const PlacedBody at = placed(body);
+  const double end = glm::distance(eye, body.c) + at.extent, near = 1e-4 * at.extent;
+  double along = 0;
+  for (int n = 0; n < 200 && along < end; ++n) {
+    const double gap = -depth(at, eye + along * ray);
+    if (gap < near) return n > 0 ? std::optional(along) : std::nullopt;
+    along += gap;
+  }
+  return std::nullopt;
+}
+
 std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& camera, glm::vec2 pixel, glm::vec2 size) {
   const glm::dvec3 eye(camera.eye()), direction = camera.ray(pixel, size);
   std::optional<int> found;
   double nearest_distance = 0;
   for (int index = 0; index < int(bodies.size()); ++index) {
-    const Body& body = bodies[index];
-    if (body.shape != Body::Shape::sphere) continue;
-    const auto distance = sphere_surface(eye, direction, body.c, body.r);
+    const auto distance = body_surface(eye, direction, bodies[std::size_t(index)]);
     if (!distance || *distance <= 0 || (found && *distance >= nearest_distance)) continue;
     found = index;
     nearest_distance = *distance;
@@ -157,7 +172,7 @@ std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& cam
 
 namespace {
 
-/// Spheres are drawn a little inside the computed ones, so cloth that rests on one is before it.
+/// Bodies are drawn a little inside the computed ones, so cloth that rests on one is before it.
 constexpr double drawn_part = 0.98;
 
 /// Twice the area of the triangle a, b, p: above 0 where p lies to one side of the line from a to b.
@@ -205,15 +220,16 @@ class StrokeSet {
     return found == strokes_.end() ? nullptr : &*found;
   }
 
-  /// Whether a sphere stands before the place at which the way crosses the spring between a and b.
+  /// Whether a body stands before the place at which the way crosses the spring between a and b.
   bool hidden(const Stroke& stroke, const Seen& a, const Seen& b, glm::dvec3 x_a, glm::dvec3 x_b) const {
     const double to_a = std::abs(side(stroke.from, stroke.to, a.at)),
                  to_b = std::abs(side(stroke.from, stroke.to, b.at));
     const glm::dvec3 at = x_a + (to_a + to_b > 0 ? to_a / (to_a + to_b) : 0.5) * (x_b - x_a);
     const double far = glm::distance(at, eye_);
     return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-      if (body.shape != Body::Shape::sphere) return false;
-      const auto surface = sphere_surface(eye_, (at - eye_) / far, body.c, drawn_part * body.r);
+      Body drawn = body;
+      drawn.r *= drawn_part, drawn.size *= drawn_part, drawn.length *= drawn_part;
+      const auto surface = body_surface(eye_, (at - eye_) / far, drawn);
       return surface && *surface < far;
     });
   }

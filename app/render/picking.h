@@ -32,7 +32,10 @@ std::vector<Pins::Site> particles_near_path(const PositionView& positions, const
 /// lies behind.
 std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 center, double r);
 
-/// Index of the sphere under the pixel that is nearest to the eye. Planes cannot be dragged and are never met.
+/// The same for any body that rests; none for planes, and where the eye is inside.
+std::optional<double> body_surface(glm::dvec3 eye, glm::dvec3 ray, const Body& body);
+
+/// Index of the body under the pixel that is nearest to the eye. Planes cannot be dragged and are never met.
 std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& camera, glm::vec2 pixel, glm::vec2 size);
 
 // Finds the springs that a stroke across the picture crosses.
@@ -43,7 +46,7 @@ struct Stroke {
 };
 
 /// The whole stretch springs, edges of triangles among them, whose pictures one of the ways crosses: through all layers
-/// of the cloth, as scissors go, but not through what a sphere hides. A spring that meets the end of one way and the
+/// of the cloth, as scissors go, but not through what a body hides. A spring that meets the end of one way and the
 /// beginning of the next is crossed by one of them. Each stands once, in the order of their owners.
 std::vector<SpringSite> springs_across(const PositionView& positions, const Tears& tears, const Camera& camera,
                                        std::span<const Body> bodies, std::span<const Stroke> strokes, glm::vec2 size);

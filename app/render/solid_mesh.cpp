@@ -49,6 +49,31 @@ SolidGeometry sphere_geometry(int meridians, int parallels) {
   return g;
 }
 
+SolidGeometry cylinder_geometry(int meridians) {
+  SolidGeometry g;
+  for (const float y : {1.0f, -1.0f})
+    for (int c = 0; c <= meridians; ++c) {
+      const float angle = turn * float(c) / float(meridians);
+      const glm::vec3 n(std::sin(angle), 0, std::cos(angle));
+      g.vertices.push_back({n + glm::vec3(0, y, 0), n});
+    }
+  add_grid(g.indices, 1, meridians);
+  for (const float y : {1.0f, -1.0f}) {
+    const glm::vec3 n(0, y, 0);
+    const auto middle = std::uint32_t(g.vertices.size());
+    g.vertices.push_back({n, n});
+    for (int c = 0; c <= meridians; ++c) {
+      const float angle = turn * float(c) / float(meridians);
+      g.vertices.push_back({{std::sin(angle), y, std::cos(angle)}, n});
+    }
+    for (std::uint32_t c = 1; c <= std::uint32_t(meridians); ++c) {
+      const std::uint32_t first = y > 0 ? middle + c : middle + c + 1, second = y > 0 ? middle + c + 1 : middle + c;
+      g.indices.insert(g.indices.end(), {middle, first, second});
+    }
+  }
+  return g;
+}
+
 SolidGeometry box_geometry(glm::vec3 center, glm::vec3 half) {
   SolidGeometry g;
   for (int axis = 0; axis < 3; ++axis) {

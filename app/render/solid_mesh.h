@@ -21,6 +21,8 @@ struct SolidGeometry {
 
 /// Unit sphere round the origin.
 SolidGeometry sphere_geometry(int meridians, int parallels);
+/// Round y, of radius 1, from y = -1 to 1, with both ends.
+SolidGeometry cylinder_geometry(int meridians);
 /// Box with half sides `half` round `center`.
 SolidGeometry box_geometry(glm::vec3 center, glm::vec3 half);
 /// A coil of wire from `top` straight down to `bottom` with straight ends.

@@ -11,6 +11,7 @@
 #include "core/io/preset_io.h"
 #include "core/model/effect.h"
 #include "core/model/preset.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -73,8 +74,7 @@ std::string name_of(const Session& session, const Edit& edit) {
   if (const auto* pin = std::get_if<edit::Pin>(&edit)) return (pin->pinned ? "pin" : "unpinning") + at(pin->i, pin->j);
   if (const auto* body = std::get_if<edit::MoveBody>(&edit)) {
     assert(body->index >= 0 && std::size_t(body->index) < session.preset().bodies.size());
-    const bool round = session.preset().bodies[std::size_t(body->index)].shape == Body::Shape::sphere;
-    return round ? "move of a sphere" : "move of a plane";
+    return "move of a " + std::string(name_of(session.preset().bodies[std::size_t(body->index)].shape));
   }
   return "";
 }

@@ -11,6 +11,7 @@
 #include "app/session/session.h"
 #include "app/tools/tools.h"
 #include "core/engines/vertex_sharing.h"
+#include "core/forces/contact.h"
 
 namespace tyglab {
 namespace {
@@ -54,17 +55,16 @@ std::optional<Pins::Site> site_under(Tools& tools, int tile, glm::vec2 at) {
 /// rests on it does not hide it.
 std::optional<int> body_pressed(Tools& tools, int tile, glm::vec2 at,
                                 std::optional<Pins::Site> (*nearest)(Tools&, int, glm::vec2)) {
-  const std::vector<Body>& bodies = tools.session.preset().bodies;
+  const std::vector<Body> bodies = tools.session.simulation->bodies();
   const auto body = body_under(bodies, tools.scene.camera, at, tools.scene.viewport.size());
   if (!body) return std::nullopt;
   const std::optional<Pins::Site> site = nearest(tools, tile, at);
   if (!site) return body;
   const glm::dvec3 eye(tools.scene.camera.eye());
   const glm::dvec3 ray = tools.scene.camera.ray(at, tools.scene.viewport.size());
-  const double r = bodies[*body].r;
-  const auto surface = sphere_surface(eye, ray, bodies[*body].c, r);
+  const auto surface = body_surface(eye, ray, bodies[std::size_t(*body)]);
   const double particle = glm::dot(ray, cloth_in_tile(tools.scene, tile).position(site->i, site->j) - eye);
-  const double resting = std::max(3 * tools.session.preset().L, 0.15 * r);
+  const double resting = std::max(3 * tools.session.preset().L, 0.15 * placed(bodies[std::size_t(*body)]).extent);
   return surface && particle > *surface - resting ? body : std::nullopt;
 }
 
@@ -73,7 +73,7 @@ void start_left(Tools& tools, glm::vec2 at) {
   if (const auto body = body_pressed(tools, tool.tile, at, nearest_of_all)) {
     tool.kind = ToolKind::body;
     tool.body = *body;
-    tool.body_plane = tools.session.preset().bodies[*body].c;
+    tool.body_plane = tools.session.simulation->bodies()[std::size_t(*body)].c;
     tool.body_offset = tool.body_plane -
                        tools.scene.camera.unproject_in_camera_plane(at, tool.body_plane, tools.scene.viewport.size());
   } else {
@@ -208,7 +208,7 @@ void move_body(Tools& tools) {
   const glm::dvec3 pointer =
       tools.scene.camera.unproject_in_camera_plane(tool.at, tool.body_plane, tools.scene.viewport.size());
   const glm::dvec3 to = glm::clamp(pointer + tool.body_offset, glm::dvec3(-1e3), glm::dvec3(1e3));
-  if (to != tools.session.preset().bodies[tool.body].c)
+  if (to != tools.session.simulation->bodies()[std::size_t(tool.body)].c)
     apply_edit(tools.session, edit::MoveBody{tool.body, to}, unsigned(tool.body) + 1);
 }
 

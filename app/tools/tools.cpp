@@ -48,7 +48,7 @@ void cut_along_path(Tools& tools) {
   tool.path = {tool.at};
   if (strokes.empty()) return;
   edit::CutSprings cut{springs_across(cloth.positions(), cloth.tears(), tools.scene.camera,
-                                      tools.session.preset().bodies, strokes, tools.scene.viewport.size())};
+                                      tools.session.simulation->bodies(), strokes, tools.scene.viewport.size())};
   if (!cut.springs.empty()) apply_edit(tools.session, std::move(cut), tool.knife_gesture);
 }
 
@@ -86,8 +86,8 @@ std::vector<SpringSite> springs_under_pointer(Tools& tools) {
   const glm::vec2 at = tools.input.at - tools.scene.viewport.origin(tile);
   const glm::vec2 across(tools.px(nick), 0), down(0, tools.px(nick));
   const std::array strokes{Stroke{at - across, at + across}, Stroke{at - down, at + down}};
-  return springs_across(cloth.positions(), cloth.tears(), tools.scene.camera, tools.session.preset().bodies, strokes,
-                        tools.scene.viewport.size());
+  return springs_across(cloth.positions(), cloth.tears(), tools.scene.camera, tools.session.simulation->bodies(),
+                        strokes, tools.scene.viewport.size());
 }
 
 namespace {

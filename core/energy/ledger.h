@@ -53,11 +53,12 @@ struct LedgerReading {
   /// The scale of unexplained(): the energy that the cloth had in motion and springs, what gravity can give it over its
   /// own length, and the work of external forces, hand and edits.
   double scale = 0;
+  bool bodies_move = false;  ///< so they may add energy
   /// What the integrator added (> 0) or removed.
   double unexplained() const { return energy.total() - start - works.total(); }
   /// Energy out of nothing: unexplained() and what contacts seem to have added, since bodies at rest only remove
-  /// energy. (Bodies that are moved do push the cloth.)
-  double made() const { return unexplained() + (works.contact > 0 ? works.contact : 0); }
+  /// energy. (Bodies that are moved by an edit do push the cloth.)
+  double made() const { return unexplained() + (works.contact > 0 && !bodies_move ? works.contact : 0); }
   /// unexplained() relative to scale; 0 if there is no scale.
   double share() const { return scale > 0 ? unexplained() / scale : 0; }
 };

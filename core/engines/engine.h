@@ -145,6 +145,13 @@ class Engine {
   /// Makes up to `steps` steps; stops early on divergence, when the hand releases, when stop_when() requests it, and
   /// when memory runs out after some steps (std::bad_alloc if not even one was made). Updates `tears` as springs break.
   virtual AdvanceResult advance(int steps, Tears& tears) = 0;
+  /// A step by its number since a time, s: it begins at since + number · dt.
+  struct StepNumber {
+    double since = 0;
+    std::int64_t number = 0;
+  };
+  /// Which step comes next: where bodies that move are depends on it. Before load() and advance().
+  void next_step(const StepNumber& step) { step_ = step; }
   /// Whether steps record what bodies stop, which only the energy ledger needs.
   virtual void note_contacts(bool on) = 0;
   /// What bodies stopped in the last dt, in each inner step if the method makes several; requires note_contacts(true).
@@ -220,7 +227,16 @@ class Engine {
     return step_limit_ > 0 && step_seconds() >= part * step_limit_;
   }
 
+ protected:
+  const StepNumber& step() const { return step_; }
+  /// When the step after `steps` further ones of dt begins, s.
+  double time_after(int steps, double dt) const { return step_.since + double(step_.number + steps) * dt; }
+  void count_steps(int steps) { step_.number += steps; }
+  /// To a backup's.
+  void return_to(const StepNumber& step) { step_ = step; }
+
  private:
+  StepNumber step_;
   Stop stop_;
   double step_limit_ = 0;  ///< s
   std::chrono::steady_clock::time_point step_begun_;

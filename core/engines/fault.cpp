@@ -115,14 +115,14 @@ double strain_squared(const Preset& preset, const Lattice& lattice, const Tears&
 }
 
 /// How far bodies are about to push a particle out of themselves, m, at most: out of one into the next, too.
-double pushed(const Preset& preset, const glm::dvec3& x) {
+double pushed(std::span<const PlacedBody> bodies, const glm::dvec3& x) {
   double inside = 0, all = 0;
-  for (const Body& body : preset.bodies) {
+  for (const PlacedBody& body : bodies) {
     const double deep = std::max(depth(body, x), 0.0);
     inside = std::max(inside, deep);
-    all += body.shape == Body::Shape::plane ? deep : 2 * body.r;
+    all += body.extent > 0 ? 2 * body.extent : deep;
   }
-  return inside > 0 && preset.bodies.size() > 1 ? all : inside;
+  return inside > 0 && bodies.size() > 1 ? all : inside;
 }
 
 /// |v|² of a particle as it is stored.
@@ -178,19 +178,19 @@ bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears
 }
 
 template <class R>
-Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
-                 double to_velocity) {
+Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, std::span<const PlacedBody> bodies,
+                 const StateView<R>& state, double to_velocity) {
   assert(preset.m > 0 && to_velocity > 0);
   assert(state.stride >= lattice.columns);
   Motion motion;
   double speeds = 0, pushes = 0;
-  const bool meets_bodies = preset.kind == Kind::cloth && !preset.bodies.empty();
+  const bool meets_bodies = preset.kind == Kind::cloth && !bodies.empty();
   for (int i = 0; i < lattice.rows; ++i)
     for (int j = 0; j < lattice.columns; ++j) {
       speeds += speed_squared(state, i, j);
       motion.farthest = std::max(motion.farthest, farthest(state, i, j));
       if (!meets_bodies) continue;
-      const double push = pushed(preset, {state.x_row(i, 0)[j], state.x_row(i, 1)[j], state.x_row(i, 2)[j]});
+      const double push = pushed(bodies, {state.x_row(i, 0)[j], state.x_row(i, 1)[j], state.x_row(i, 2)[j]});
       pushes += push * push;
     }
   motion.squared = speeds * to_velocity * to_velocity;
@@ -236,8 +236,10 @@ bool find_runaway(const MotionLimit& limit, const Lattice& lattice, const StateV
   return too_fast || !(far <= limit.farthest());
 }
 
-template Motion motion_of(const Preset&, const Lattice&, const Tears&, const StateView<float>&, double);
-template Motion motion_of(const Preset&, const Lattice&, const Tears&, const StateView<double>&, double);
+template Motion motion_of(const Preset&, const Lattice&, const Tears&, std::span<const PlacedBody>,
+                          const StateView<float>&, double);
+template Motion motion_of(const Preset&, const Lattice&, const Tears&, std::span<const PlacedBody>,
+                          const StateView<double>&, double);
 template bool find_runaway(const MotionLimit&, const Lattice&, const StateView<float>&, double, Fault&);
 template bool find_runaway(const MotionLimit&, const Lattice&, const StateView<double>&, double, Fault&);
 template double growth_left<float>(const Preset&, const LongestSquared&);

@@ -5,10 +5,12 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
 #include "core/engines/motion_limit.h"
+#include "core/forces/contact.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
@@ -64,10 +66,11 @@ template <class R>
 bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
                 Fault& fault, double& divergence_budget);
 
-/// Measures the present motion. `to_velocity`: factor that converts stored velocities to m/s.
+/// Measures the present motion among bodies where they are. `to_velocity`: factor that converts stored velocities to
+/// m/s.
 template <class R>
-Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
-                 double to_velocity);
+Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, std::span<const PlacedBody> bodies,
+                 const StateView<R>& state, double to_velocity);
 
 /// Whether all particles together are faster than the scene allows, or one is farther away than it can have traveled.
 /// Of several about equally fast particles it names the first, so rounding does not decide.

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/engines/fault.h"
+#include "core/forces/contact.h"
 #include "core/forces/force.h"
 
 namespace tyglab {
@@ -55,6 +56,8 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   const double wind = cloth ? triangles / corners * glm::length(p.W) / p.m : 0;
   const double at_hand = std::sqrt(sum_of(&Force::at_particle, p) / p.m);
   acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind) + at_hand * hand_speed;
+  // A body that moves may throw the cloth about: what energy that is no formula says.
+  if (cloth && any_moves(p.bodies)) acceleration_ = std::numeric_limits<double>::infinity();
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
   fastest_mode_ = std::sqrt(sum_of(&Force::largest_eigenvalue, p) / p.m);
   reach_squared_ = reach_squared(p, lattice);
@@ -85,7 +88,8 @@ void MotionLimit::update() {
 
 void MotionLimit::pass(double dt) {
   assert(!(dt < 0));  // time goes on, and with it the bounds
-  gained_ += acceleration_ * dt, begun_squared_ += damping_ * dt;
+  if (dt > 0) gained_ += acceleration_ * dt;
+  begun_squared_ += damping_ * dt;
   update();
   farthest_ += std::sqrt(most_squared_) * dt;
 }

@@ -1,22 +1,19 @@
 #include "core/forces/contact.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <numbers>
 
 namespace tyglab {
 namespace contact {
 namespace {
 
-using glm::dot, std::sqrt, std::fabs, std::fmin, std::fmax;
-
-glm::dvec3 center(const Body* body) {
-  return body->c;
-}
-bool is_plane(const Body* body) {
-  return body->shape == Body::Shape::plane;
-}
+using Body = PlacedBody;
+using glm::cross, glm::dot, std::cos, std::fabs, std::fmax, std::fmin, std::sin, std::sqrt;
 
 #define BODIES
 #define global
@@ -39,20 +36,136 @@ ContactRule rule_of(const Contacts& of) {
 }  // namespace
 }  // namespace contact
 
-double depth(const Body& body, const glm::dvec3& x) {
-  return -contact::gap_at(&body, x);
+namespace {
+
+glm::dvec3 center_at(const Body& body, double t) {
+  if (body.path.empty())
+    return (body.shape == Body::Shape::plane ? glm::dvec3(0, body.y, 0) : body.c) + t * body.velocity;
+  const auto next = std::find_if(body.path.begin(), body.path.end(), [&](const Body::Key& key) { return key.t > t; });
+  if (next == body.path.begin()) return next->x;
+  const Body::Key& last = *(next - 1);
+  if (next == body.path.end()) return last.x;
+  return last.x + ((t - last.t) / (next->t - last.t)) * (next->x - last.x);
 }
 
-double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon) {
+void store(const glm::dvec3& from, double* to) {
+  for (int c = 0; c < 3; ++c) to[c] = from[c];
+}
+
+/// The body at time t, s, as if it rested there.
+PlacedBody placed_at(const Body& body, double t) {
+  using Shape = Body::Shape;
+  PlacedBody at{};
+  store(center_at(body, t), at.c);
+  // Turned about x, y and z in that order, then by what it has spun.
+  glm::dquat turn = glm::identity<glm::dquat>();
+  for (int n = 0; n < 3; ++n) {
+    glm::dvec3 axis{0};
+    axis[n] = 1;
+    if (body.turn[n] != 0) turn = glm::angleAxis(glm::radians(body.turn[n]), axis) * turn;
+  }
+  if (const double rate = glm::length(body.spin); rate > 0) turn = glm::angleAxis(rate * t, body.spin / rate) * turn;
+  const bool turns = body.turn != glm::dvec3(0) || body.spin != glm::dvec3(0);
+  const glm::dmat3 axes = glm::mat3_cast(turn);
+  for (int n = 0; n < 3; ++n) store(axes[n], at.axes + 3 * n);
+  const bool box = body.shape == Shape::box;
+  store(box ? body.size / 2.0 : glm::dvec3(body.r, body.length / 2, 0), at.size);
+  at.extent = box                             ? glm::length(body.size) / 2
+              : body.shape == Shape::capsule  ? body.r + body.length / 2
+              : body.shape == Shape::cylinder ? std::hypot(body.r, body.length / 2)
+              : body.shape == Shape::sphere   ? body.r
+                                              : 0;
+  at.friction = body.friction, at.restitution = body.restitution;
+  at.shape = std::int32_t(body.shape);
+  at.turns = turns && body.shape != Shape::sphere;
+  return at;
+}
+
+/// Whether the spin turns the surface into itself.
+bool is_round(Body::Shape shape, const PlacedBody& body, const glm::dvec3& spin) {
+  constexpr double rounding = 1e-12;
+  if (spin == glm::dvec3(0) || shape == Body::Shape::sphere) return true;
+  const glm::dvec3 axis(body.axes[3], body.axes[4], body.axes[5]);
+  return shape != Body::Shape::box && glm::length(glm::cross(axis, spin)) < rounding * glm::length(spin);
+}
+
+/// BodyAt::reach. What positions may lack by rounding is added.
+double reach_of(const PlacedBody& body, double dt, double epsilon) {
+  const double way = dt * std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]);
+  const glm::dvec3 c(body.c[0], body.c[1], body.c[2]), up(body.axes[3], body.axes[4], body.axes[5]);
+  if (body.shape != std::int32_t(Body::Shape::plane)) return body.extent + way + contact_tolerance(body, c, epsilon);
+  if (!body.turns) return c.y + way + contact_tolerance(body, c, 2 * epsilon);
+  constexpr double farthest = 1e4;  // m, of what is simulated
+  return body.spins ? std::numeric_limits<double>::infinity() : glm::dot(up, c) + way + 8 * epsilon * farthest;
+}
+
+}  // namespace
+
+std::vector<PlacedBody> placed_bodies(std::span<const Body> bodies, double t, double dt, double epsilon) {
+  assert(dt > 0);
+  std::vector<PlacedBody> all;
+  all.reserve(bodies.size());
+  for (const Body& body : bodies) {
+    all.push_back(placed_at(body, t));
+    const glm::dvec3 velocity = (center_at(body, t + dt) - center_at(body, t)) / dt;
+    store(body.path.empty() ? body.velocity : velocity, all.back().velocity);
+    store(body.spin, all.back().spin);
+    all.back().moves = body.spin != glm::dvec3(0) || velocity != glm::dvec3(0);
+    all.back().spins = !is_round(body.shape, all.back(), body.spin);
+    all.back().reach = reach_of(all.back(), dt, epsilon);
+  }
+  return all;
+}
+
+PlacedBody placed(const Body& body) {
+  return placed_at(body, 0);
+}
+
+Body body_at(const Body& body, double t) {
+  if (!any_moves({&body, 1})) return body;
+  Body at = body;
+  at.c = center_at(body, t);
+  at.velocity = at.spin = glm::dvec3(0), at.path.clear();
+  if (body.shape == Body::Shape::plane) at.y = at.c.y;
+  if (body.spin == glm::dvec3(0)) return at;
+  // The angles about x, y and z, in that order, that lead to its axes.
+  const PlacedBody placed = placed_at(body, t);
+  const double *x = placed.axes, *y = x + 3, *z = y + 3;
+  const double flat = std::hypot(x[0], x[1]);
+  at.turn =
+      glm::degrees(flat > 1e-9 ? glm::dvec3(std::atan2(y[2], z[2]), std::atan2(-x[2], flat), std::atan2(x[1], x[0]))
+                               : glm::dvec3(std::atan2(-z[1], y[1]), std::atan2(-x[2], flat), 0));
+  return at;
+}
+
+bool any_moves(std::span<const Body> bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) {
+    return body.velocity != glm::dvec3(0) || body.spin != glm::dvec3(0) || body.path.size() > 1;
+  });
+}
+
+double depth(const PlacedBody& body, const glm::dvec3& x) {
+  return -contact::gap_at(&body, x, 0);
+}
+
+glm::dvec3 body_normal(const PlacedBody& body, const glm::dvec3& x) {
+  return contact::normal_at(&body, x, 0);
+}
+
+glm::dvec3 body_velocity(const PlacedBody& body, const glm::dvec3& x) {
+  return contact::surface_velocity(&body, x, 0);
+}
+
+double contact_tolerance(const PlacedBody& body, const glm::dvec3& x, double epsilon) {
   return contact::tolerance_at(&body, x, epsilon);
 }
 
-bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
-                     const glm::dvec3& a) {
+bool held_by_contact(std::span<const PlacedBody> bodies, double dt, double epsilon, const glm::dvec3& x,
+                     const glm::dvec3& v, const glm::dvec3& a) {
   const glm::dvec3 free_x = x + dt * (v + dt * a);
-  return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+  return std::any_of(bodies.begin(), bodies.end(), [&](const PlacedBody& body) {
     // What rounding leaves between a resting particle and the body is no distance.
-    return depth(body, free_x) > -contact_tolerance(body, free_x, epsilon);
+    return -contact::gap_at(&body, free_x, dt) > -contact_tolerance(body, free_x, epsilon);
   });
 }
 
@@ -65,11 +178,11 @@ bool meets_within_steps(const Preset& preset) {
   return preset.kind == Kind::cloth && !preset.bodies.empty() && preset.contact != "step";
 }
 
-bool meets(std::span<const Body> bodies, const Contacts& rule, const ContactStep& step) {
+bool meets(std::span<const PlacedBody> bodies, const Contacts& rule, const ContactStep& step) {
   return contact::meets(bodies.data(), int(bodies.size()), contact::rule_of(rule), step.old_x, step.x) != 0;
 }
 
-bool collide(std::span<const Body> bodies, const Contacts& rule, ContactStep& step) {
+bool collide(std::span<const PlacedBody> bodies, const Contacts& rule, ContactStep& step) {
   return contact::collide(bodies.data(), int(bodies.size()), contact::rule_of(rule), step.old_x, step.old_v, &step.x,
                           &step.v) == 0;
 }

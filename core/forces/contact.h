@@ -1,10 +1,13 @@
-// Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"); what it does is in
+// Collision of one particle with bodies (2.1.5; docs/model.md, "Collision"); what it does is in
 // kernels/contact.cl, which the OpenCL engine compiles too. It uses double for both precisions: few particles touch a
 // body, and rounding to float would be visible as jitter.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
@@ -17,17 +20,57 @@ struct ContactStep {
   glm::dvec3 old_x, old_v, x, v;
 };
 
-/// How deep `x` is inside the body, m; negative outside.
-double depth(const Body& body, const glm::dvec3& x);
+/// A body as contacts see it in one step, from its beginning on: at a place, turned, and on a straight way. `B` is
+/// double, or a device's float. Body of kernels/body.cl.
+template <class B>
+struct BodyAt {
+  B c[3];     ///< center, or a point of a plane, m
+  B axes[9];  ///< its x, its y (the normal of a plane, the axis of a cylinder) and its z, in the world
+  B velocity[3], spin[3];
+  B size[3];  ///< a box: half its edges; otherwise r and half the length, m
+  B extent;   ///< no point is farther from the center; a plane: 0, m
+  B friction, restitution;
+  B reach;  ///< quick test: who is farther from the center throughout the step does not meet it; a plane: along y's
+            ///< axis, m
+  std::int32_t shape;
+  std::int32_t turns, spins, moves;  ///< whether axes are not the world's, change, and whether any point moves
+};
+using PlacedBody = BodyAt<double>;
+/// The same for a device.
+template <class B>
+BodyAt<B> body_as(const PlacedBody& from) {
+  BodyAt<B> to{};
+  std::copy_n(from.c, 3, to.c), std::copy_n(from.axes, 9, to.axes), std::copy_n(from.size, 3, to.size);
+  std::copy_n(from.velocity, 3, to.velocity), std::copy_n(from.spin, 3, to.spin);
+  to.extent = B(from.extent), to.friction = B(from.friction), to.restitution = B(from.restitution);
+  to.reach = B(from.reach), to.shape = from.shape;
+  to.turns = from.turns, to.spins = from.spins, to.moves = from.moves;
+  return to;
+}
+/// The bodies over a step of dt that begins at time t, s. `epsilon`: of the precision of positions.
+std::vector<PlacedBody> placed_bodies(std::span<const Body> bodies, double t, double dt, double epsilon);
+/// A body that rests.
+PlacedBody placed(const Body& body);
+/// The body as it is at time t, s, at rest.
+Body body_at(const Body& body, double t);
+/// Whether one of them moves.
+bool any_moves(std::span<const Body> bodies);
 
-/// 8 units in the last place of the largest of |x|, |c|, r: a bound on rounding errors, m. `epsilon` is that of the
-/// state's precision.
-double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
+/// How deep `x` is inside the body as the step begins, m; negative outside.
+double depth(const PlacedBody& body, const glm::dvec3& x);
+/// Unit normal of the surface of a placed body seen from x.
+glm::dvec3 body_normal(const PlacedBody& body, const glm::dvec3& x);
+/// Velocity of the point of the body that is at x, m/s.
+glm::dvec3 body_velocity(const PlacedBody& body, const glm::dvec3& x);
+
+/// 8 units in the last place of the largest of |x|, |c| and the body's size: a bound on rounding errors, m. `epsilon`
+/// is that of the state's precision.
+double contact_tolerance(const PlacedBody& body, const glm::dvec3& x, double epsilon);
 
 /// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt. Then the
-/// body exerts a force that no formula gives, since contacts correct positions and velocities.
-bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
-                     const glm::dvec3& a);
+/// body exerts a force that no formula gives, since contacts correct positions and velocities. `bodies`: over that dt.
+bool held_by_contact(std::span<const PlacedBody> bodies, double dt, double epsilon, const glm::dvec3& x,
+                     const glm::dvec3& v, const glm::dvec3& a);
 
 /// The rule of contacts besides the bodies (solver.contact).
 struct Contacts {
@@ -44,10 +87,10 @@ Contacts contacts_of(const Preset& preset, double dt, double epsilon);
 bool meets_within_steps(const Preset& preset);
 
 /// Whether the step meets a body.
-bool meets(std::span<const Body> bodies, const Contacts& rule, const ContactStep& step);
+bool meets(std::span<const PlacedBody> bodies, const Contacts& rule, const ContactStep& step);
 /// Corrects x and v of a step that meets bodies. Returns whether x is outside all of them afterwards (overlapping
 /// bodies can leave it inside one).
-bool collide(std::span<const Body> bodies, const Contacts& rule, ContactStep& step);
+bool collide(std::span<const PlacedBody> bodies, const Contacts& rule, ContactStep& step);
 
 // Gusts: W varies with simulated time. They are not part of the report's model, whose wind is steady, and off by
 // default. The acceleration remains a(x, v): the wind changes only between two steps, so all stages of a step use one

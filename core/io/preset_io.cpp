@@ -20,6 +20,9 @@
 namespace tyglab {
 namespace {
 
+constexpr double farthest_key = 1e3;      // of a path, s and m
+constexpr std::size_t most_keys = 10000;  // of a path
+
 using Type = JsonNode::Type;
 
 /// Why `v` is not allowed, or empty. The one place where ranges are checked.
@@ -76,10 +79,23 @@ std::string pins_problem(const Preset& p) {
   return {};
 }
 
-/// Values that only the other shape has mean nothing, and no writer keeps them.
-void drop_other_shape(Body& body) {
-  if (!shape_has(body.shape, "y")) body.y = Body().y;
-  if (!shape_has(body.shape, "r")) body.c = Body().c, body.r = Body().r;
+/// Values that only other shapes have mean nothing, and no writer keeps them.
+void drop_other_shapes(Body& body) {
+  for (const BodyRow& row : body_notation())
+    if (!shape_has(body.shape, row.key)) std::visit([&](auto field) { body.*field = Body().*field; }, row.field);
+}
+
+std::string path_problem(const Body& body) {
+  if (body.path.empty()) return {};
+  if (body.velocity != glm::dvec3(0)) return "a body follows its path or has a velocity, not both; remove one";
+  for (std::size_t n = 0; n < body.path.size(); ++n) {
+    const Body::Key& key = body.path[n];
+    const std::string at = "[" + std::to_string(n) + "] ";
+    for (const double value : {key.t, key.x.x, key.x.y, key.x.z})
+      if (!(std::abs(value) <= farthest_key)) return at + "must hold numbers from -1000 to 1000";
+    if (n > 0 && !(key.t > body.path[n - 1].t)) return at + "must be later than the one before";
+  }
+  return {};
 }
 
 /// Reads values of one source (a file, a --set) into a preset; knows how to complain.
@@ -169,10 +185,25 @@ class Reader {
     }
   }
 
+  void body_path(const JsonNode& node, const std::string& path, std::vector<Body::Key>& out) const {
+    if (node.type != Type::list) wrong_type(node, path, "a list of [t, x, y, z]");
+    if (node.items.size() > most_keys)
+      fail(node.line, path, "must be a list of at most " + std::to_string(most_keys) + " keys");
+    out.assign(node.items.size(), {});
+    for (std::size_t n = 0; n < out.size(); ++n) {
+      const JsonNode& item = node.items[n];
+      const std::string item_path = path + "[" + std::to_string(n) + "]";
+      if (item.type != Type::list || item.items.size() != 4) wrong_type(item, item_path, "[t, x, y, z]");
+      value(item.items[0], item_path, out[n].t);
+      for (int c = 0; c < 3; ++c) value(item.items[std::size_t(c) + 1], item_path, out[n].x[c]);
+    }
+  }
+
   void body_key(const std::string& key, const JsonNode& node, const std::string& path, Body& body) const {
     if (key == "shape") return choice(node, path, shape_names, body.shape);
+    if (key == "path") return body_path(node, path, body.path);
     if (const BodyRow* row = find_body_row(key)) return field(node, path, *row, body);
-    std::vector<std::string_view> known{"shape"};
+    std::vector<std::string_view> known{"shape", "path"};
     for (const BodyRow& row : body_notation()) known.push_back(row.key);
     unknown(node.line, path, key, known);
   }
@@ -181,7 +212,8 @@ class Reader {
     if (node.type != Type::object) wrong_type(node, path, "an object {…}");
     out = {};
     for (const auto& [key, child] : node.members) body_key(key, child, path + "." + key, out);
-    drop_other_shape(out);
+    if (const auto problem = path_problem(out); !problem.empty()) fail(node.line, path + ".path", problem);
+    drop_other_shapes(out);
   }
 
   void bodies(const JsonNode& node, const std::string& path, std::vector<Body>& out) const {
@@ -337,11 +369,12 @@ void check_shape(const Setting& setting, const Preset& p) {
   std::string inner;
   if (!body_setting(setting.key, index, inner) || index >= p.bodies.size()) return;
   const Body::Shape shape = p.bodies[index].shape;
-  if (!shape_has(shape, inner))
-    Reader(setting.typed)
-        .fail(0, setting.key,
-              shape == Body::Shape::plane ? "a plane has a height y, no c and no r"
-                                          : "a sphere has c and r, no height y");
+  if (shape_has(shape, inner)) return;
+  std::vector<std::string_view> keys;
+  for (const BodyRow& row : body_notation())
+    if (shape_has(shape, row.key)) keys.push_back(row.key);
+  Reader(setting.typed)
+      .fail(0, setting.key, "a " + std::string(name_of(shape)) + " has no " + inner + "; it has " + joined(keys));
 }
 
 }  // namespace
@@ -408,7 +441,7 @@ Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& se
   Preset changed = preset;
   for (const Setting& setting : settings) apply_setting(setting, changed);
   for (const Setting& setting : settings) check_shape(setting, changed);
-  for (Body& body : changed.bodies) drop_other_shape(body);
+  for (Body& body : changed.bodies) drop_other_shapes(body);
   if (const auto problem = check_preset(changed); !problem.empty()) throw PresetError("--set: " + problem);
   return changed;
 }
@@ -424,6 +457,9 @@ std::string check_preset(const Preset& preset) {
   for (const PresetRow& row : notation())
     if (const auto problem = value_problem(row, preset); !problem.empty())
       return std::string(row.section) + "." + std::string(row.key) + ": " + problem;
+  for (std::size_t n = 0; n < preset.bodies.size(); ++n)
+    if (const auto problem = path_problem(preset.bodies[n]); !problem.empty())
+      return "bodies[" + std::to_string(n) + "].path: " + problem;
   for (std::size_t n = 0; n < preset.bodies.size(); ++n)
     for (const BodyRow& row : body_notation())
       if (const auto problem = value_problem(row, preset.bodies[n]); !problem.empty())

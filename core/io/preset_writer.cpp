@@ -48,9 +48,16 @@ std::string pins_text(const Pins& pins) {
 std::string body_text(const Body& body) {
   std::string text = "{\"shape\": " + json_text(name_of(body.shape));
   for (const BodyRow& row : body_notation()) {
-    if (!shape_has(body.shape, row.key)) continue;
+    // What the first release did not have is left out where it has its default, so that hashes stay.
+    const bool later = row.key == "turn" || row.key == "velocity" || row.key == "spin";
+    if (!shape_has(body.shape, row.key) || (later && field_text(row, body) == field_text(row, Body{}))) continue;
     text += ", " + json_text(row.key) + ": " + field_text(row, body);
   }
+  const auto key = [](const Body::Key& key) {
+    return "[" + shortest_number(key.t) + ", " + shortest_number(key.x.x) + ", " + shortest_number(key.x.y) + ", " +
+           shortest_number(key.x.z) + "]";
+  };
+  if (!body.path.empty()) text += ", \"path\": [" + joined(body.path, ", ", key) + "]";
   return text + "}";
 }
 

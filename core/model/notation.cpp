@@ -107,12 +107,22 @@ const auto rows = std::to_array<PresetRow>({
 });
 
 const auto body_rows = std::to_array<BodyRow>({
-    {"bodies", "c", "c", "Center of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, bodies, "2.9",
-     "Position of the sphere."},
-    {"bodies", "r", "r", "Radius of a sphere", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, bodies, "2.9",
-     "A particle is inside if (x - c)·(x - c) < r²."},
+    {"bodies", "c", "c", "Center of a body", "Centrumpunkt", "m", &Body::c, -1e3, 1e3, linear, bodies, "2.9",
+     "Where the body's center is at the start."},
+    {"bodies", "r", "r", "Radius", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, bodies, "2.9",
+     "Of a sphere, capsule or cylinder. A particle is inside a sphere if (x - c)·(x - c) < r²."},
+    {"bodies", "size", "", "Edges of a box", "Kantlängder", "m", &Body::size, 1e-3, 200, logarithmic, bodies, "",
+     "Edges along the box's own x, y and z."},
+    {"bodies", "length", "", "Length", "Längd", "m", &Body::length, 1e-3, 200, logarithmic, bodies, "",
+     "Of a cylinder, or of a capsule between the centers of its round ends; along its own y axis."},
     {"bodies", "y", "y", "Height of a plane", "Planets höjd", "m", &Body::y, -1e3, 1e3, linear, bodies, "",
-     "A horizontal plane; particles stay above it."},
+     "The plane passes through (0, y, 0) at the start; particles stay above it."},
+    {"bodies", "turn", "", "Rotation", "Vridning", "°", &Body::turn, -360, 360, linear, bodies, "",
+     "At the start, about x, then y, then z; spheres have none."},
+    {"bodies", "velocity", "", "Velocity of a body", "Kroppens hastighet", "m/s", &Body::velocity, -100, 100, linear,
+     bodies, "", "The body's center moves that fast from the start on."},
+    {"bodies", "spin", "", "Angular velocity", "Vinkelhastighet", "rad/s", &Body::spin, -1e3, 1e3, linear, bodies, "",
+     "About the body's center; friction drags the cloth along."},
     {"bodies", "friction", "μ", "Friction", "Friktion", "", &Body::friction, 0, 10, linear, bodies, "",
      "Coulomb's coefficient: tangential velocity lost per normal velocity lost."},
     {"bodies", "restitution", "e", "Restitution", "Studskoefficient", "", &Body::restitution, 0, 1, linear, bodies, "",
@@ -228,8 +238,13 @@ const BodyRow* find_body_row(std::string_view key) {
 }
 
 bool shape_has(Body::Shape shape, std::string_view key) {
-  if (key == "c" || key == "r") return shape == Body::Shape::sphere;
-  return key != "y" || shape == Body::Shape::plane;
+  using Shape = Body::Shape;
+  if (key == "y") return shape == Shape::plane;
+  if (key == "c") return shape != Shape::plane;
+  if (key == "r") return shape != Shape::plane && shape != Shape::box;
+  if (key == "size") return shape == Shape::box;
+  if (key == "length") return shape == Shape::capsule || shape == Shape::cylinder;
+  return key != "turn" || shape != Shape::sphere;
 }
 
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
@@ -290,7 +305,9 @@ std::string notation_markdown() {
          "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu`, "
          "`opencl` or `plain`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of "
          "`bodies` has "
-         "a `shape`: `sphere` (c, r) or `plane` (y).\n\n";
+         "a `shape`: `sphere` (c, r), `plane` (y, turn), `box` (c, size, turn), `capsule` or `cylinder` (c, r, "
+         "length, turn). Any of them moves with `velocity` and `spin`, or its center follows a `path`: a list of "
+         "[t, x, y, z] (s, m), with straight lines between.\n\n";
   table<Body>(out, body_rows);
   out << "\n## Variables\n\nShown for the picked particle, and plotted.\n\n| Symbol | Quantity | Storhet | Unit | "
          "Equation | Meaning |\n|---|---|---|---|---|---|\n";

@@ -26,15 +26,27 @@ struct Pins {
   bool operator==(const Pins&) const = default;
 };
 
-/// A fixed body that the cloth collides with (2.1.5).
+/// A body that the cloth collides with (2.1.5). It rests, or moves as told.
 struct Body {
-  enum class Shape { sphere, plane };
+  enum class Shape { sphere, plane, box, capsule, cylinder };
+  /// Where the center is at a time.
+  struct Key {
+    double t = 0;     ///< s
+    glm::dvec3 x{0};  ///< m
+    bool operator==(const Key&) const = default;
+  };
   Shape shape = Shape::sphere;
-  glm::dvec3 c{0, 0, 0};   ///< center of a sphere, m
-  double r = 0.2;          ///< radius of a sphere, m
-  double y = 0;            ///< height of a plane, m
-  double friction = 0;     ///< Coulomb's μ
-  double restitution = 0;  ///< e: 0 plastic, 1 elastic
+  glm::dvec3 c{0, 0, 0};           ///< center at the start, m; of all but a plane
+  double r = 0.2;                  ///< radius of a sphere, capsule or cylinder, m
+  double y = 0;                    ///< a plane passes through (0, y, 0) at the start, m
+  glm::dvec3 size{0.4, 0.4, 0.4};  ///< edges of a box, m
+  double length = 0.5;             ///< of a cylinder; of a capsule between the centers of its ends, m
+  glm::dvec3 turn{0, 0, 0};        ///< at the start about x, then y, then z, degrees
+  glm::dvec3 velocity{0, 0, 0};    ///< of the center, m/s
+  glm::dvec3 spin{0, 0, 0};        ///< angular velocity about the center, rad/s
+  std::vector<Key> path;           ///< of the center, straight between keys; empty: it moves at `velocity`
+  double friction = 0;             ///< Coulomb's μ
+  double restitution = 0;          ///< e: 0 plastic, 1 elastic
   bool operator==(const Body&) const = default;
 };
 

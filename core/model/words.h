@@ -14,7 +14,7 @@ namespace tyglab {
 inline constexpr std::array<std::string_view, 2> kind_names{"cloth", "one_weight"};
 inline constexpr std::array<std::string_view, 7> pin_names{"none",        "top_row",  "top_corners", "four_corners",
                                                            "left_column", "boundary", "list"};
-inline constexpr std::array<std::string_view, 2> shape_names{"sphere", "plane"};
+inline constexpr std::array<std::string_view, 5> shape_names{"sphere", "plane", "box", "capsule", "cylinder"};
 inline constexpr std::array<std::string_view, 3> engine_names{"cpu", "opencl", "plain"};
 inline constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
 /// Values of solver.contact: within the step, or at its end (the report's rule).
@@ -27,6 +27,11 @@ constexpr std::string_view name_of(Pins::Mode v) {
 }
 constexpr std::string_view name_of(Body::Shape v) {
   return shape_names[std::size_t(v)];
+}
+/// As a title.
+constexpr std::string_view title_of(Body::Shape v) {
+  constexpr std::array<std::string_view, 5> titles{"Sphere", "Plane", "Box", "Capsule", "Cylinder"};
+  return titles[std::size_t(v)];
 }
 constexpr std::string_view name_of(EngineKind v) {
   return engine_names[std::size_t(v)];

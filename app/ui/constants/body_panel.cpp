@@ -34,7 +34,7 @@ double in_hundredths(double length, double size) {
 std::string name_of_body(const std::vector<Body>& bodies, int index) {
   const Body::Shape shape = bodies[std::size_t(index)].shape;
   const auto same = [shape](const Body& body) { return body.shape == shape; };
-  const std::string name = shape == Body::Shape::sphere ? "Sphere" : "Plane";
+  const std::string name(title_of(shape));
   if (std::count_if(bodies.begin(), bodies.end(), same) == 1) return name;
   return name + " " + std::to_string(std::count_if(bodies.begin(), bodies.begin() + index + 1, same));
 }
@@ -129,14 +129,18 @@ void add_body(Ui& ui, Body::Shape shape) {
   body.shape = shape;
   body.friction = usual_friction;
   Bounds shown;
-  if (shape == Body::Shape::sphere) {
-    body.r = std::clamp(in_hundredths(0.25 * size, size), 1e-3, 100.0);
-    const double clear = 1.3 * body.r;
+  if (shape != Body::Shape::plane) {
+    body.r = std::clamp(in_hundredths((shape == Body::Shape::sphere ? 0.25 : 0.12) * size, size), 1e-3, 100.0);
+    body.length = std::clamp(in_hundredths(0.6 * size, size), 1e-3, 200.0);
+    body.size = glm::dvec3(std::clamp(in_hundredths(0.4 * size, size), 1e-3, 200.0));
+    // Lying, as a rod over which cloth is hung.
+    if (shape_has(shape, "length")) body.turn.z = 90;
+    const double half = shape == Body::Shape::box ? body.size.y / 2 : body.r, clear = 1.3 * half;
     const auto floor = floor_height(next);
-    const bool lies = floor && cloth.lo.y - clear - body.r < *floor;
+    const bool lies = floor && cloth.lo.y - clear - half < *floor;
     const glm::dvec3 c(middle.x, lies ? cloth.hi.y + clear : cloth.lo.y - clear, middle.z);
     for (int k = 0; k < 3; ++k) body.c[k] = std::clamp(in_hundredths(c[k], size), -farthest, farthest);
-    shown = {glm::vec3(body.c) - float(body.r), glm::vec3(body.c) + float(body.r)};
+    shown = body_bounds(body, cloth).value_or(cloth);
   } else {
     const double y = std::min(scene.lo.y, cloth.lo.y) - 0.05 * size;
     body.y = std::clamp(in_hundredths(y, size), -farthest, farthest);
@@ -207,6 +211,11 @@ void body_sections(Ui& ui) {
   if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();
   if (text_button(ui, "Add plane", false, room)) add_body(ui, Body::Shape::plane);
+  if (text_button(ui, "Box", false, room)) add_body(ui, Body::Shape::box);
+  ImGui::SameLine();
+  if (text_button(ui, "Capsule", false, room)) add_body(ui, Body::Shape::capsule);
+  ImGui::SameLine();
+  if (text_button(ui, "Cylinder", false, room)) add_body(ui, Body::Shape::cylinder);
 }
 
 }  // namespace tyglab

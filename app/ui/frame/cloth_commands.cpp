@@ -87,6 +87,16 @@ std::vector<CommandRow> cloth_rows() {
        "",
        "floor ground body new collision",
        add<Body::Shape::plane>,
+       no_more_bodies},
+      {"add_box", "Add a box", "", {}, "", "cube table body new collision", add<Body::Shape::box>, no_more_bodies},
+      {"add_capsule", "Add a capsule", "", {}, "", "rod body new collision", add<Body::Shape::capsule>, no_more_bodies},
+      {"add_cylinder",
+       "Add a cylinder",
+       "",
+       {},
+       "",
+       "rod drum can body new collision",
+       add<Body::Shape::cylinder>,
        no_more_bodies}};
 }
 

@@ -197,22 +197,31 @@ void Band<R, Present>::restore_pair(const PairTask<R>& t, const ResolvedSweep& s
   std::copy_n(t.v, 2 * v.pitch(), v.row(i));
 }
 
+/// The least coordinate of a row's particles along the normal of a plane, m.
+template <class R, unsigned Present>
+R Band<R, Present>::lowest(const PlacedBody& plane, const R* x) const {
+  if (!plane.turns) return simd::lowest(x, cloth_.stride, cloth_.lattice.columns);
+  const R n[] = {R(plane.axes[3]), R(plane.axes[4]), R(plane.axes[5])};
+  const R *y = x + cloth_.stride, *z = y + cloth_.stride;
+  R least = std::numeric_limits<R>::infinity();
+  for (int j = 0; j < cloth_.lattice.columns; ++j) least = std::min(least, n[0] * x[j] + n[1] * y[j] + n[2] * z[j]);
+  return least;
+}
+
 /// Whether a particle of the row may meet a body; rounding is left to the exact test.
 template <class R, unsigned Present>
 bool Band<R, Present>::touches(int i) {
   const R* x = cloth_.row(vector_x, i, 0);
   const R* from = cloth_.contacts.at_ends ? x : old_row(i, 0);
   constexpr double epsilon = double(std::numeric_limits<R>::epsilon());
-  for (const Body& body : cloth_.preset.bodies) {
-    if (body.shape == Body::Shape::plane) {
-      const R lowest = simd::lowest(x, cloth_.stride, cloth_.lattice.columns);
-      if (lowest < body.y + contact_tolerance(body, {0, lowest, 0}, 2 * epsilon)) return true;
+  for (const PlacedBody& body : *pass_.bodies) {
+    if (body.shape == std::int32_t(Body::Shape::plane)) {
+      if (double(lowest(body, x)) < body.reach) return true;
       continue;
     }
-    const R center[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
-    const double reach = body.r + contact_tolerance(body, body.c, epsilon);
+    const R center[] = {R(body.c[0]), R(body.c[1]), R(body.c[2])};
     if (double(simd::nearest_squared(from, x, cloth_.stride, cloth_.lattice.columns, center)) <
-        reach * reach * (1 + 8 * epsilon))
+        body.reach * body.reach * (1 + 8 * epsilon))
       return true;
   }
   return false;
@@ -236,10 +245,10 @@ void Band<R, Present>::collide_row(int i) {
       p.old_x[c] = old_row(i, c)[j], p.x[c] = *x[c], p.v[c] = *v[c] / scale;
       if (!rule.at_ends) p.old_v[c] = old_velocity(i, c)[j] / scale;
     }
-    if (!meets(cloth_.preset.bodies, rule, p)) continue;
+    if (!meets(*pass_.bodies, rule, p)) continue;
     const ContactStep freely = p;
     collided_ = true;
-    if (!collide(cloth_.preset.bodies, rule, p)) ++left_inside_;
+    if (!collide(*pass_.bodies, rule, p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
       // What damping sees is changed as much; at the ends of steps alone it becomes the same.
@@ -296,11 +305,19 @@ double Band<R, Present>::max_displacement() const {
   return finite ? largest : std::numeric_limits<double>::infinity();
 }
 
+/// The bodies that act in a step of the batch; null: none do.
 template <class R, unsigned Present>
-void Band<R, Present>::begin_sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
+const std::vector<PlacedBody>* Band<R, Present>::bodies_in(int step) const {
+  if (!has(part::bodies) || cloth_.preset.bodies.empty() || cloth_.preset.kind != Kind::cloth) return nullptr;
+  const std::size_t n = cloth_.bodies_move ? std::size_t(step) : 0;
+  assert(n < cloth_.bodies.size());
+  return &cloth_.bodies[n];
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::begin_sweep(const ResolvedSweep& s, const Tears& tears, bool last, int step) {
   const bool weight = cloth_.preset.kind == Kind::one_weight;
-  const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && !weight;
-  pass_ = {&s, &tears, task(s), last, bodies, weight || s.update == Update::force};
+  pass_ = {&s, &tears, task(s), last, last ? bodies_in(step) : nullptr, weight || s.update == Update::force};
   has_hand_ = false;
   if (pass_.assigns) begin_sums(s.assignments);
   begin_forces(pass_.task, tears);
@@ -310,7 +327,7 @@ void Band<R, Present>::begin_sweep(const ResolvedSweep& s, const Tears& tears, b
 template <class R, unsigned Present>
 void Band<R, Present>::sweep_rows(int i, int count) {
   const ResolvedSweep& s = *pass_.sweep;
-  const bool last = pass_.last, bodies = pass_.bodies, assigns = pass_.assigns;
+  const bool last = pass_.last, bodies = pass_.bodies != nullptr, assigns = pass_.assigns;
   const int end = i + count;
   assert(i >= begin_ && end <= end_ && count > 0 && count <= block_);
   if (bodies || (last && assigns)) save_rows(i, count, bodies);
@@ -339,7 +356,8 @@ void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool la
 
 template <class R, unsigned Present>
 void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last) {
-  const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && cloth_.preset.kind == Kind::cloth;
+  pass_.bodies = last ? bodies_in(0) : nullptr;
+  const bool bodies = pass_.bodies != nullptr;
   begin_sums(assignments);
   for (int i = begin_; i < end_; i += block_) {
     const int count = rows_of(i, block_);

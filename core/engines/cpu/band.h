@@ -77,8 +77,10 @@ struct Cloth {
   LinearSprings<R> springs;  ///< of forces that are linear in positions
   unsigned features = 0;
   bool keeps_displacement = false;
-  bool notes_contacts = false;   ///< whether bands record what bodies stop
-  Contacts contacts;             ///< the rule of contacts; its dt is that of the present step
+  bool notes_contacts = false;                  ///< whether bands record what bodies stop
+  Contacts contacts;                            ///< the rule of contacts; its dt is that of the present step
+  std::vector<std::vector<PlacedBody>> bodies;  ///< in each step of a batch; where they rest, in all
+  bool bodies_move = false;
   int seen_velocity = vector_v;  ///< vector that damping uses at the start of a step
   std::vector<Field> vectors;
   std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row by row
@@ -125,7 +127,8 @@ class Band {
   /// One pass over the band's rows. `last`: the last sweep of a step, in which bodies act and the motion is watched.
   void sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
   /// The same pair by pair: rows i and i + 1, from the band's first row on. The arguments must outlive the pass.
-  void begin_sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
+  /// `step`: of those that are made together.
+  void begin_sweep(const ResolvedSweep& sweep, const Tears& tears, bool last, int step = 0);
   void sweep_pair(int i) { sweep_rows(i, rows_of(i, 2)); }
   /// Makes assignments that do not use a. `last` as above.
   void assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last);
@@ -168,6 +171,8 @@ class Band {
   void save_rows(int i, int count, bool bodies);
   void sweep_rows(int i, int count);
   void restore_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
+  const std::vector<PlacedBody>* bodies_in(int step) const;
+  R lowest(const PlacedBody& plane, const R* x) const;
   bool touches(int i);
   void collide_row(int i);
   void watch_rows(int i, int count);
@@ -181,7 +186,9 @@ class Band {
     const ResolvedSweep* sweep = nullptr;
     const Tears* tears = nullptr;
     PairTask<R> task{};
-    bool last = false, bodies = false, assigns = false;
+    bool last = false;
+    const std::vector<PlacedBody>* bodies = nullptr;  ///< that act at its end
+    bool assigns = false;
   };
 
   Cloth<R>& cloth_;

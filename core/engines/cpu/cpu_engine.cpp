@@ -120,9 +120,12 @@ void CpuEngine<R, Present>::resolve() {
     }
   }
   start_ = scheme_->start.empty() ? ResolvedSweep() : resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
+  std::vector<std::vector<PlacedBody>> bodies = bodies_in(1);
   make_waves();  // the last that takes memory
   cloth_.features = features_of(cloth_.preset);
   cloth_.contacts = contacts_of(cloth_.preset, cloth_.dt, std::numeric_limits<R>::epsilon());
+  cloth_.bodies_move = any_moves(cloth_.preset.bodies);
+  cloth_.bodies.swap(bodies);
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,
@@ -158,6 +161,17 @@ void CpuEngine<R, Present>::exchange(const Preset& preset) {
     swap(before), std::swap(cloth_.preset, other);
     throw;
   }
+}
+
+/// In steps that are made together, or in the next inner step.
+template <class R, unsigned Present>
+std::vector<std::vector<PlacedBody>> CpuEngine<R, Present>::bodies_in(int steps) const {
+  const double dt = cloth_.preset.dt, made = chooses_steps(*scheme_) && left_of_dt_ > 0 ? dt - left_of_dt_ : 0;
+  std::vector<std::vector<PlacedBody>> all;
+  for (int n = 0; n < std::max(steps, 1); ++n)
+    all.push_back(
+        placed_bodies(cloth_.preset.bodies, time_after(n, dt) + made, cloth_.dt, std::numeric_limits<R>::epsilon()));
+  return all;
 }
 
 template <class R, unsigned Present>
@@ -219,6 +233,7 @@ bool CpuEngine<R, Present>::keeps_old_rows() const {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   const int columns = cloth_.lattice.columns;
+  cloth_.bodies = bodies_in(1);
   rows_.resize(6 * std::size_t(team_->capacity()) * columns);
   team_->run([&](int number) {
     const auto part = [&](int n) { return rows_.data() + (6 * std::ptrdiff_t(number) + n) * columns; };
@@ -231,7 +246,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
       }
     }
   });
-  guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1));
+  guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, cloth_.bodies.front(), view(), 1));
   rows_ = Array<double>();
   set_synchronized(true);
   write_fixed_velocities();

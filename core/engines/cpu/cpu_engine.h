@@ -164,6 +164,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void accept_springs(const Tears& tears) { springs_changed_ = false, known_torn_ = tears.torn_count(); }
   /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
+  std::vector<std::vector<PlacedBody>> bodies_in(int steps) const;
   /// The same in place, for inner steps, where it happens often.
   void change_dt(double dt);
   void scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const;
@@ -228,6 +229,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   bool knows_first_a_ = false, accepted_ = false;
   bool synchronized_ = true;  ///< vectors 0 and 1 hold positions and velocities of one time, others nothing
   bool synchronized_backup_ = true;
+  StepNumber step_backup_;
   std::vector<std::vector<ResolvedSweep>> tables_;  ///< sweeps by the number of stages; those in use are in sweeps_
   std::size_t table_ = 0;                           ///< that is in use
   Spectrum spectrum_;

@@ -66,7 +66,8 @@ bool CpuEngine<R, Present>::find_runaway(const MotionLimit& limit, Fault& fault)
 
 template <class R, unsigned Present>
 Motion CpuEngine<R, Present>::motion(const Tears& tears) {
-  return motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1 / cloth_.velocity_scale());
+  cloth_.bodies = bodies_in(1);
+  return motion_of(cloth_.preset, cloth_.lattice, tears, cloth_.bodies.front(), view(), 1 / cloth_.velocity_scale());
 }
 
 template <class R, unsigned Present>
@@ -201,7 +202,7 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
   for (int n = first; n < end; ++n) {
     const ResolvedSweep& sweep = sweeps_[std::size_t(n % sweeps)];
     waves_[std::size_t(n)]->reset_watch();
-    waves_[std::size_t(n)]->begin_sweep(sweep, tears, n % sweeps == sweeps - 1);
+    waves_[std::size_t(n)]->begin_sweep(sweep, tears, n % sweeps == sweeps - 1, n / sweeps);
   }
   Progress& mine = progress_[std::size_t(number)];
   for (int i = 0; i < rows + behind * (end - first - 1); i += 2) {
@@ -222,6 +223,7 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
     if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = BatchEnd::stopped, left = 0;
     together_ = left > 0 && waves ? steps_in_wave(left) : std::min(left, 1);
     if (together_ > 0) follow_springs(tears);
+    if (together_ > 0 && cloth_.bodies_move) cloth_.bodies = bodies_in(together_);
     for (Progress& progress : progress_) progress.restart();
   };
   const auto judge = [&] {
@@ -242,6 +244,7 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
         step_in_bands(number, tears);
       }
       if (number == 0) {
+        count_steps(together_);
         if (!chooses_steps(*scheme_) && !abandoned_) judge();  // inner steps have been checked
         plan();
       }
@@ -292,7 +295,7 @@ BatchResult CpuEngine<R, Present>::make_steps(int most, Tears& tears, Fault& fau
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::keep_backup() {
   for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
-  control_backup_ = control_, synchronized_backup_ = synchronized_;
+  control_backup_ = control_, synchronized_backup_ = synchronized_, step_backup_ = step();
 }
 
 /// Without waves, which would overwrite states that are to be examined.
@@ -302,6 +305,7 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
   set_synchronized(synchronized_backup_);
+  return_to(step_backup_);
   Fault known{};
   repeating_ = true;
   try {

@@ -28,14 +28,6 @@ struct DeviceContactRule {
   std::int32_t at_ends, unused;
 };
 
-/// Body of body.cl.
-template <class B>
-struct DeviceBody {
-  B c[3], r, y, friction, restitution;
-  B touch;
-  std::int32_t plane, unused;
-};
-
 /// Contact of bodies.cl.
 template <class B>
 struct DeviceContact {

@@ -114,7 +114,8 @@ void OpenClEngine<R>::resolve() {
     const Sweep& summed = pass.work == Work::solution ? residual() : pass.sweep;
     resolved_.push_back({&pass.sweep, constants(over, summed), pass.work});
   }
-  upload_bodies();
+  bodies_move_ = any_moves(preset_.bodies);
+  upload_bodies(1);
   upload_shares();
   guard_.set_rules({.tearing = tears_watched(), .F_release = preset_.F_release, .costly_steps = is_implicit(*scheme_)});
   guard_.set_scene(preset_, lattice_, held_);
@@ -122,30 +123,26 @@ void OpenClEngine<R>::resolve() {
 }
 
 template <class R>
-void OpenClEngine<R>::upload_bodies() {
+void OpenClEngine<R>::upload_bodies(int steps) {
   if (!meets_bodies(preset_)) return;
-  device_->facts().fp64 ? upload_bodies_as<double>() : upload_bodies_as<float>();
+  device_->facts().fp64 ? upload_bodies_as<double>(steps) : upload_bodies_as<float>(steps);
 }
 
 template <class R>
 template <class B>
-void OpenClEngine<R>::upload_bodies_as() {
+void OpenClEngine<R>::upload_bodies_as(int steps) {
   constexpr double epsilon = std::numeric_limits<R>::epsilon();
   const Contacts rule = contacts_of(preset_, preset_.dt, epsilon);
   const DeviceContactRule<B> head{
       B(rule.dt),  B(rule.epsilon), B(rule.g), B(rule.shape.position), B(rule.shape.last_kick),
       B(rule.lag), rule.at_ends,    0};
-  std::vector<DeviceBody<B>> list;
-  for (const Body& b : preset_.bodies) {
-    const bool plane = b.shape == Body::Shape::plane;
-    // Rounding of the quick test is left to the exact one, as in Band::touches.
-    const double reach = b.r + contact_tolerance(b, b.c, epsilon);
-    const double height = b.y + contact_tolerance(b, {0, b.y, 0}, 2 * epsilon);
-    const R touch =
-        plane ? std::nextafter(R(height), std::numeric_limits<R>::max()) : R(reach * reach * (1 + 9 * epsilon));
-    list.push_back(
-        {{B(b.c.x), B(b.c.y), B(b.c.z)}, B(b.r), B(b.y), B(b.friction), B(b.restitution), B(touch), plane, 0});
-  }
+  std::vector<BodyAt<B>> list;
+  for (int n = 0; n < steps; ++n)
+    for (const PlacedBody& body : placed_bodies(preset_.bodies, time_after(n, preset_.dt), preset_.dt, epsilon)) {
+      list.push_back(body_as<B>(body));
+      // Rounding of the quick test is left to the exact one, as in Band::touches.
+      list.back().reach = std::nextafter(R(body.reach * (1 + 5 * epsilon)), std::numeric_limits<R>::max());
+    }
   std::vector<std::byte> bytes(sizeof head + list.size() * sizeof list[0]);
   std::memcpy(bytes.data(), &head, sizeof head);
   std::memcpy(bytes.data() + sizeof head, list.data(), bytes.size() - sizeof head);
@@ -190,7 +187,7 @@ void OpenClEngine<R>::launch_sweep(const Kernel& kernel, int at, const Constants
   set_arguments(kernel, at, scratch, cl_int(bands_), cl_int(levels), cl_int(band_numbers_), masks,
                 cl_int(state_.stride()), cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns),
                 k, reports, hand, cl_int(slot), cl_int(held_.particle), bodies, cl_int(preset_.bodies.size()),
-                contact_list, linear);
+                cl_int(bodies_move_), contact_list, linear);
   if (width_ == 1) {
     launch_rows(kernel, lattice_.columns);
     return;
@@ -263,7 +260,9 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
       std::transform(row.v[c], row.v[c] + columns, v + to, [](double a) { return R(a); });
     }
   }
-  guard_.begin(motion_of(preset_, lattice_, tears, StateView<R>{x, v, state_.stride()}, 1));
+  const auto bodies =
+      placed_bodies(preset_.bodies, time_after(0, preset_.dt), preset_.dt, std::numeric_limits<R>::epsilon());
+  guard_.begin(motion_of(preset_, lattice_, tears, bodies, StateView<R>{x, v, state_.stride()}, 1));
   state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
   upload_masks(tears);
   guard_.accept_cuts(tears);

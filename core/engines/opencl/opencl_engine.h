@@ -116,13 +116,14 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   Kernels make_kernels(const Preset& preset, bool contacts) const;
   Constants constants(const Preset& preset, const Sweep& sweep) const;
   void resolve();
-  void upload_bodies();
+  /// Where bodies are in each of that many steps from now on.
+  void upload_bodies(int steps);
   /// Shares of the springs that take over what forces do that are linear in positions (linear_springs.h).
   void upload_shares();
   /// Makes the masks, and the constants of those springs, from what is whole. `report`: of the look before, or null.
   void derive(cl_mem report, int slot);
   template <class B>
-  void upload_bodies_as();
+  void upload_bodies_as(int steps);
   void read_contacts(std::uint32_t count);
 
   /// Launches `columns` work-items for each row.
@@ -152,7 +153,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
   bool find_runaway(const MotionLimit& limit, Fault& fault) override;
   Motion motion(const Tears& tears) override;
-  void keep_backup() override { state_.keep_backup(), synchronized_backup_ = synchronized_; }
+  void keep_backup() override { state_.keep_backup(), synchronized_backup_ = synchronized_, step_backup_ = step(); }
   void repeat(int steps, Tears& tears) override;
 
   /// Makes that many steps, and reads their reports. `tear_each`: each breaks overloaded springs. Returns false where a
@@ -191,6 +192,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool masks_stale_ = true, notes_contacts_ = false;
   bool synchronized_ = true;  ///< vectors 0 and 1 hold positions and velocities of one time, others nothing
   bool synchronized_backup_ = true;
+  StepNumber step_backup_;
+  bool bodies_move_ = false;
   bool memory_settled_ = false;  ///< positions are in lent memory, or cannot be
   bool noted_run_ = false;       ///< the device knows that the present kernels have made steps
   std::vector<Contact> contacts_;

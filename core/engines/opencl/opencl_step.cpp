@@ -36,6 +36,7 @@ bool OpenClEngine<R>::run(int count, bool tear_each) {
   assert(count >= 1 && count <= StepGuard::steps_between_backups);  // each has its report
   const auto begun = std::chrono::steady_clock::now();
   state_.end_views();
+  if (bodies_move_) upload_bodies(count);
   const cl_uint zero = 0;
   const std::size_t bytes = std::size_t(count) * sizeof(DeviceStepMeasures);
   check(clEnqueueFillBuffer(device_->queue(), reports_.get(), &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
@@ -53,6 +54,7 @@ bool OpenClEngine<R>::run(int count, bool tear_each) {
     if (tear_each) enqueue_tear(n);
     if (n == 0) check(clFlush(device_->queue()), "starting a step");
   }
+  count_steps(count);
   report_.resize(std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, bytes, report_.data(), 0, nullptr, nullptr),
         "making a step");
@@ -128,7 +130,9 @@ bool OpenClEngine<R>::find_runaway(const MotionLimit& limit, Fault& fault) {
 
 template <class R>
 Motion OpenClEngine<R>::motion(const Tears& tears) {
-  return motion_of(preset_, lattice_, tears, view(), 1 / velocity_scale());
+  const auto bodies =
+      placed_bodies(preset_.bodies, time_after(0, preset_.dt), preset_.dt, std::numeric_limits<R>::epsilon());
+  return motion_of(preset_, lattice_, tears, bodies, view(), 1 / velocity_scale());
 }
 
 template <class R>
@@ -182,6 +186,7 @@ void OpenClEngine<R>::repeat(int steps, Tears& tears) {
   const bool watched = tears_watched();
   state_.restore();
   synchronized_ = synchronized_backup_;
+  return_to(step_backup_);
   if (watched) upload_masks(tears);
   if (steps > 0) {
     repeating_ = true;

@@ -62,7 +62,11 @@ void Cloth::start(const Tears& tears) {
   synchronized = false;
 }
 
-void Cloth::step(const Tears& tears) {
+std::vector<PlacedBody> Cloth::bodies(double t) const {
+  return placed_bodies(preset.bodies, t, preset.dt, std::numeric_limits<double>::epsilon());
+}
+
+void Cloth::step(const Tears& tears, double t) {
   if (synchronized && !scheme->start.empty()) start(tears);
   Vector x_before, v_before;
   for (const Sweep& sweep : scheme->sweeps) {
@@ -70,21 +74,22 @@ void Cloth::step(const Tears& tears) {
     x_before = vectors[vector_x], v_before = vectors[vector_v];
     assign(sweep.assignments, accelerations(sweep.position, sweep.velocity, per, tears, sweep.external));
   }
-  collide(x_before, v_before);
+  collide(x_before, v_before, t);
 }
 
 /// Bodies correct the positions and velocities of particles that meet them in the step. Vectors: before its last sweep,
 /// up to which no position changes.
-void Cloth::collide(const Vector& x_before, const Vector& v_before) {
+void Cloth::collide(const Vector& x_before, const Vector& v_before, double t) {
   const double scale = velocity_scale();
   const Contacts rule = contacts_of(preset, preset.dt, std::numeric_limits<double>::epsilon());
+  const std::vector<PlacedBody> placed = bodies(t);
   contacts.clear(), left_inside = 0, largest = 0;
   Vector &x = vectors[vector_x], &v = vectors[vector_v];
   for (std::size_t p = 0; p < x.size(); ++p) {
     ContactStep now{x_before[p], v_before[p] / scale, x[p], v[p] / scale};
     const ContactStep freely = now;
-    if (preset.kind == Kind::cloth && fixed[p] == 0 && meets(preset.bodies, rule, now)) {
-      if (!tyglab::collide(preset.bodies, rule, now)) ++left_inside;
+    if (preset.kind == Kind::cloth && fixed[p] == 0 && meets(placed, rule, now)) {
+      if (!tyglab::collide(placed, rule, now)) ++left_inside;
       const glm::dvec3 seen_then = rule.at_ends ? now.v * scale : seen()[p] + (now.v - freely.v) * scale;
       x[p] = now.x, v[p] = now.v * scale;
       if (&seen() != &v) seen()[p] = seen_then;

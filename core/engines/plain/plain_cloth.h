@@ -12,6 +12,7 @@
 
 #include "core/cloth/state.h"
 #include "core/engines/engine.h"
+#include "core/forces/contact.h"
 #include "core/forces/force.h"
 #include "core/integrators/scheme.h"
 
@@ -47,7 +48,10 @@ struct Cloth {
 
   /// F/m at the positions of one vector and the velocities of another, which are `per` times its values.
   Vector accelerations(int position, int velocity, double per, const Tears& tears, bool external_only = false);
-  void step(const Tears& tears);
+  /// `t`: when it begins, s, for bodies that move.
+  void step(const Tears& tears, double t);
+  /// The bodies over the step that begins then.
+  std::vector<PlacedBody> bodies(double t) const;
   /// The method's own start.
   void start(const Tears& tears);
   /// Breaks the springs whose F_s exceeds F_max, but those near what is pinned or held. Returns by how much any other
@@ -56,7 +60,7 @@ struct Cloth {
 
  private:
   void assign(const std::vector<Assignment>& assignments, const Vector& a);
-  void collide(const Vector& x_before, const Vector& v_before);
+  void collide(const Vector& x_before, const Vector& v_before, double t);
 };
 
 }  // namespace tyglab::plain

@@ -92,12 +92,19 @@ class PlainEngine final : public Engine, private GuardedSteps {
     return tyglab::find_runaway(limit, lattice_, view(), 1 / cloth_.velocity_scale(), fault);
   }
   Motion motion(const Tears& tears) override {
-    return motion_of(cloth_.preset, lattice_, tears, view(), 1 / cloth_.velocity_scale());
+    return motion_of(cloth_.preset, lattice_, tears, cloth_.bodies(time_after(0, cloth_.preset.dt)), view(),
+                     1 / cloth_.velocity_scale());
   }
-  void keep_backup() override { backup_ = cloth_; }
+  void keep_backup() override { backup_ = cloth_, step_backup_ = step(); }
+  void step_once(const Tears& tears) {
+    cloth_.step(tears, time_after(0, cloth_.preset.dt));
+    count_steps(1);
+    write_rows();
+  }
   void repeat(int steps, Tears& tears) override;
 
   plain::Cloth cloth_, backup_;
+  StepNumber step_backup_;
   Lattice lattice_;
   int stride_;
   simd::RowField<double> x_, v_;
@@ -182,8 +189,7 @@ BatchResult PlainEngine::make_steps(int most, Tears& tears, Fault& fault) {
   BatchResult made;
   while (made.count < most && made.end == BatchEnd::complete) {
     if (stops()) return {made.count, BatchEnd::stopped};
-    cloth_.step(tears);
-    write_rows();
+    step_once(tears);
     const BatchResult judged = guard_.judge(*this, 1, tears, fault);
     made = {made.count + judged.count, judged.end};
   }
@@ -192,11 +198,11 @@ BatchResult PlainEngine::make_steps(int most, Tears& tears, Fault& fault) {
 
 void PlainEngine::repeat(int steps, Tears& tears) {
   cloth_ = backup_;
+  return_to(step_backup_);
   write_rows();
   Fault fault{};
   for (int n = 0; n < steps; ++n) {
-    cloth_.step(tears);
-    write_rows();
+    step_once(tears);
     guard_.judge(*this, 1, tears, fault);
   }
 }
