@@ -41,10 +41,12 @@ struct Pin {
   int i, j;
   bool pinned;
 };
-/// Moves body `index` to center `c` (sphere) or height `c.y` (plane).
+/// Moves body `index` to center `c`, or a plane to height `c.y`, over that many steps, in which it has the velocity of
+/// the move; 0: at once. One that moves by itself is shifted at once.
 struct MoveBody {
   int index;
   glm::dvec3 c;
+  int steps = 0;
 };
 
 }  // namespace tyglab::edit

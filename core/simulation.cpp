@@ -84,6 +84,7 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(const Simulation& from)
     : preset_(from.preset_),
       effective_preset_(from.effective_preset_),
+      pushed_until_(from.pushed_until_),
       threads_(from.threads_),
       stop_(from.stop_),
       step_limit_(from.step_limit_),
@@ -187,7 +188,7 @@ void Simulation::apply(const Edit& edit) {
 void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   const EffectSet changed = changes(preset_, next);
-  const bool moves = !changed.within(motionless), pins = changed.touches(Effect::pins);
+  const bool moves = !changed.within(motionless) || pushed_until_, pins = changed.touches(Effect::pins);
   // The wind of the coming step is set when the step begins, or by an edit of what it depends on.
   const bool blows = changed.touches(Effect::force | Effect::dt);
   Preset own = next, acts = blows ? in_gusts(next, time()) : merge(preset_, next, acting());
@@ -201,6 +202,7 @@ void Simulation::change(const Preset& next) {
     fix(pinned, held);
     held_ = held, pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
   }
+  if (blows || changed.touches(Effect::bodies)) pushed_until_.reset();
   preset_ = std::move(own), effective_preset_ = std::move(acts);
 }
 
@@ -213,7 +215,7 @@ bool Simulation::restarts(EffectSet changed) const {
 void Simulation::take_engine(const Preset& next, const State& state) {
   engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   if (next.dt != preset_.dt) rebase_time();
-  preset_ = next, effective_preset_ = in_gusts(next, time());
+  preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
 }
 
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
@@ -288,7 +290,7 @@ void Simulation::restart_untouched(const Preset& next) {
   const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
   const Fixed fixed{particles_in(pinned_mask), held};
   engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
-  preset_ = next, effective_preset_ = in_gusts(next, time());
+  preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
@@ -364,11 +366,29 @@ void Simulation::move_body(const edit::MoveBody& e) {
   else
     body.c = moves ? body.c + by : e.c;
   for (Body::Key& key : body.path) key.x += by;
-  change(next);
+  const bool on_its_way = e.steps > 0 && !moves;
+  const Body acting_now = body_at(acting().bodies[std::size_t(e.index)], time());
+  if (!on_its_way) return change(next);
+  // Until then it follows a path, at the velocity of the move.
+  if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
+  Preset acts = acting();
+  Body& pushed = acts.bodies[std::size_t(e.index)] = body;
+  pushed.path = {{time(), plane ? glm::dvec3(0, acting_now.y, 0) : acting_now.c},
+                 {time() + e.steps * preset_.dt, plane ? glm::dvec3(0, body.y, 0) : body.c}};
+  engine_->set_preset(acts, tears_);
+  preset_ = std::move(next), effective_preset_ = std::move(acts), pushed_until_ = steps_ + e.steps;
+}
+
+/// Bodies that were on their way have arrived.
+void Simulation::end_push() {
+  Preset acts = effective_preset_;
+  acts.bodies = preset_.bodies;
+  engine_->set_preset(acts, tears_);
+  effective_preset_ = std::move(acts), pushed_until_.reset();
 }
 
 std::vector<Body> Simulation::bodies() const {
-  std::vector<Body> all = preset_.bodies;
+  std::vector<Body> all = acting().bodies;
   for (Body& body : all) body = body_at(body, time());
   return all;
 }
@@ -405,6 +425,8 @@ AdvanceResult Simulation::advance(int steps) {
 /// As far as the engine goes by itself: what follows from the steps is done.
 AdvanceResult Simulation::advance_part(int steps) {
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
+  if (pushed_until_ && *pushed_until_ <= steps_) end_push();
+  if (pushed_until_) steps = int(std::min<std::int64_t>(steps, *pushed_until_ - steps_));
   if (gusts(preset_)) steps = std::min(steps, update_gust());
   if (watch_) watch_->before_step(preset_, tears_);
   engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
@@ -477,10 +499,10 @@ void Simulation::restore(const Snapshot& then) {
   if (repeats) gusty.W = then.W;
   engine_->prepare(pinned_.size());
   if (watch_) energy();
-  if (gusts(preset_)) engine_->set_preset(gusty, tears_);
+  if (gusts(preset_) || pushed_until_) engine_->set_preset(gusty, tears_);
   engine_->set_fixed(pinned_, {});
   held_ = {};
-  tears_ = std::move(tears), effective_preset_ = std::move(gusty);
+  tears_ = std::move(tears), effective_preset_ = std::move(gusty), pushed_until_.reset();
   hand_steps_left_ = 0;
   hand_force_ = {};
   left_inside_ = 0;

@@ -167,7 +167,7 @@ class Simulation {
   std::unique_ptr<Engine> made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
                                       const StateRows& rows, const Tears& tears, double t) const;
   /// The present constants: those of the preset, with the present wind.
-  const Preset& acting() const { return gusts(preset_) ? effective_preset_ : preset_; }
+  const Preset& acting() const { return gusts(preset_) || pushed_until_ ? effective_preset_ : preset_; }
   int update_gust();
   bool restarts(EffectSet changed) const;
   void take_engine(const Preset& next, const State& state);
@@ -182,6 +182,7 @@ class Simulation {
   void cut_springs(const edit::CutSprings& edit);
   void pin(const edit::Pin& edit);
   void move_body(const edit::MoveBody& edit);
+  void end_push();
   void rebase_time();
   void hold(const Held& held);
   void fix(std::span<const int> pinned, const Held& held);
@@ -191,8 +192,9 @@ class Simulation {
   void watch_edit(Ledger::Source source);
 
   Preset preset_;
-  Preset effective_preset_;  ///< the engine's constants: the preset with the present wind; valid only while there
-                             ///< are gusts
+  Preset effective_preset_;  ///< the engine's constants: the preset with the present wind, and a body on its way; valid
+                             ///< only while there are gusts or one is
+  std::optional<std::int64_t> pushed_until_;  ///< number of the step that ends that way
   int threads_;
   Stop stop_;
   double step_limit_ = 0;  ///< s

@@ -65,7 +65,7 @@ ParticleReadout Simulation::particle(int i, int j) const {
   out.x = now.x(i, j), out.v = now.v(i, j);
   out.a = out.pinned ? glm::dvec3(0) : out["F"] / preset_.m;
   out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
-                held_by_contact(placed_bodies(preset_.bodies, time(), preset_.dt, rounding_unit(preset_.precision)),
+                held_by_contact(placed_bodies(acting().bodies, time(), preset_.dt, rounding_unit(preset_.precision)),
                                 preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
   return out;
 }
@@ -100,7 +100,7 @@ void Simulation::enable_ledger(bool on) {
 std::optional<LedgerReading> Simulation::ledger() const {
   if (!watch_) return std::nullopt;
   LedgerReading reading = watch_->ledger().reading();
-  reading.bodies_move = any_moves(preset_.bodies);
+  reading.bodies_move = any_moves(acting().bodies);
   return reading;
 }
 

@@ -9,6 +9,7 @@
 #include "app/base/text.h"
 #include "app/session/motion.h"
 #include "app/session/rebuild.h"
+#include "core/forces/contact.h"
 #include "core/model/effect.h"
 #include "core/model/preset.h"
 #include "core/theory/advice.h"
@@ -92,6 +93,11 @@ void Session::advance(double real_seconds, const SessionInput& input) {
   again_at = moment.again_at;
 }
 
+bool Session::goes_on() const {
+  return pacing.playing && !behind_page && !asleep() && !rebuild.holds_present() && !studies.engine.busy() &&
+         !background_steps.busy() && !simulation->divergence();
+}
+
 void Session::step(double real_seconds, const SessionInput& input) {
   const FrameCosts::Timer timer(costs, Part::simulate);
   if (background_steps.busy()) {
@@ -118,11 +124,13 @@ void Session::step(double real_seconds, const SessionInput& input) {
   rewind.look(*simulation);
   const int due = up_to_stop(*this, pacing.due(real_seconds, dt));
   move_hand(*this, input.hand, due);
+  if (input.body && due > 0)
+    apply_edit(*this, edit::MoveBody{input.body->index, input.body->c, due}, input.body_gesture);
   pacing.budget_s = step_budget(costs, input.frame_time);
   make_steps(due, input);
   // A step of a lab may measure for how long nothing happens.
   const bool measures = labs.run && !labs.run->record().done;
-  if (!background_steps.busy() && !scripted)
+  if (!background_steps.busy() && !scripted && !any_moves(preset().bodies))
     sleep.look(*simulation, input.touched || !copies.lockstep.empty() || measures);
 }
 

@@ -32,7 +32,9 @@ namespace tyglab {
 
 /// The actions on the cloth during an update, besides the requests.
 struct SessionInput {
-  std::optional<glm::dvec3> hand;     ///< where the hand that holds the cloth is to be at the end, m
+  std::optional<glm::dvec3> hand;      ///< where the hand that holds the cloth is to be at the end, m
+  std::optional<edit::MoveBody> body;  ///< that is dragged: where it is to be at the end
+  unsigned body_gesture = 0;           ///< the drag's, which is undone as one
   std::function<void()> after_steps;  ///< called after each step where set: a knife acts while the cloth moves under it
   bool touched = false;               ///< a tool is in use: the cloth does not fall asleep
   bool slow_motion = false;
@@ -106,6 +108,8 @@ struct Session {
 
   /// The present moment, as studies are asked about it.
   StudyMoment study_moment() const;
+  /// Whether the next update makes steps of the cloth, if any are due.
+  bool goes_on() const;
   bool asleep() const { return pacing.playing && sleep.asleep(*simulation); }
   /// Whether nothing moves, and nothing is being worked out that will change the cloth.
   bool idle() const;

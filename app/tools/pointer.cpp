@@ -208,7 +208,11 @@ void move_body(Tools& tools) {
   const glm::dvec3 pointer =
       tools.scene.camera.unproject_in_camera_plane(tool.at, tool.body_plane, tools.scene.viewport.size());
   const glm::dvec3 to = glm::clamp(pointer + tool.body_offset, glm::dvec3(-1e3), glm::dvec3(1e3));
-  if (to != tools.session.simulation->bodies()[std::size_t(tool.body)].c)
+  tool.body_to.reset();
+  if (to == tools.session.simulation->bodies()[std::size_t(tool.body)].c) return;
+  if (tools.session.goes_on())
+    tool.body_to = to;
+  else
     apply_edit(tools.session, edit::MoveBody{tool.body, to}, unsigned(tool.body) + 1);
 }
 

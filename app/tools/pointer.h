@@ -47,8 +47,9 @@ struct Tool {
   glm::vec2 wind_foot{0};      ///< where that arrow begins, pixels in the first picture
   int body = -1;
   glm::dvec3 body_plane{0}, body_offset{0};
-  std::optional<Pins::Site> site;  ///< under the right press
-  glm::dvec3 hand{0};              ///< where the hand should go, m
+  std::optional<glm::dvec3> body_to;  ///< where the steps of this frame take the body, with the drag's velocity
+  std::optional<Pins::Site> site;     ///< under the right press
+  glm::dvec3 hand{0};                 ///< where the hand should go, m
   // For double clicks of the right button: the click before, as it was pressed and when it was let go.
   double last_click = -1;
   glm::vec2 last_press{0};

@@ -28,6 +28,8 @@ void Tools::follow() {
 SessionInput Tools::session_input() {
   SessionInput wanted;
   if (tool.kind == Tool::Kind::grab) wanted.hand = tool.hand;
+  if (tool.kind == Tool::Kind::body && tool.body_to)
+    wanted.body = edit::MoveBody{tool.body, *tool.body_to}, wanted.body_gesture = unsigned(tool.body) + 1;
   if (cuts_between_steps(*this)) wanted.after_steps = [this] { use_knife(*this); };
   wanted.touched = tool.kind != Tool::Kind::none;
   wanted.slow_motion = settings.slow_hand && hand_in_cloth(*this);

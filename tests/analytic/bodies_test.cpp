@@ -257,6 +257,30 @@ TEST_CASE("a body follows its path, and edits shift it from where it is") {
   CHECK(glm::length(simulation.bodies()[0].c - glm::dvec3(4, 0, 0)) < 1e-9);
 }
 
+TEST_CASE("a body that is dragged has the velocity of the drag, and none when it has arrived") {
+  for (const int rounds : {1, 3}) {
+    Preset preset = particle("verlet", {0, 0, 0}, {0, 0, 0});
+    preset.g = 0;
+    Body ball = body_of(Shape::sphere, 0, 0.5);
+    ball.r = 0.1, ball.c = {-0.2, 0, 0};
+    preset.bodies = {ball};
+    Simulation simulation(preset);
+    simulation.enable_ledger(true);
+    // 0.15 m in 90 ms, in a drag of one or three frames: it meets the particle after two thirds.
+    for (int n = 1; n <= rounds; ++n) {
+      simulation.apply(edit::MoveBody{0, {-0.2 + 0.15 * n / rounds, 0, 0}, 90 / rounds});
+      simulation.advance(90 / rounds);
+    }
+    const double speed = 0.15 / 0.09;
+    CHECK(v_of(simulation).x == doctest::Approx(1.5 * speed).epsilon(1e-9));
+    CHECK(simulation.ledger()->works.contact == doctest::Approx(preset.m * std::pow(1.5 * speed, 2) / 2).epsilon(1e-6));
+    CHECK(simulation.preset().bodies[0].c.x == doctest::Approx(-0.05));
+    CHECK(simulation.preset().bodies[0].path.empty());
+    simulation.advance(100);
+    CHECK(simulation.bodies()[0] == simulation.preset().bodies[0]);
+  }
+}
+
 TEST_CASE("a body that spins is turned by angles about x, y and z as much as it has spun") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-1, 1);

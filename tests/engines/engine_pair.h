@@ -92,6 +92,14 @@ inline Preset everything(Precision precision, const std::string& integrator = "v
   preset.bodies[0].friction = 0.4;
   // Who bounces in one step and not in the next goes elsewhere: with float's rounding that would decide.
   preset.bodies[1].restitution = precision == Precision::double_ ? 0.5 : 0;
+  preset.bodies.push_back({.shape = Body::Shape::cylinder,
+                           .c = {0.3, 0.66, 0.3},
+                           .r = 0.08,
+                           .length = 0.2,
+                           .turn = {30, 0, 70},
+                           .velocity = {0, 0.4, 0},
+                           .spin = {1, 2, 0},
+                           .friction = 0.3});
   return preset;
 }
 

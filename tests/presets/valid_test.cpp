@@ -49,7 +49,12 @@ Preset unusual() {
   sphere.restitution = 1;
   plane.shape = Body::Shape::plane;
   plane.y = -0.75;
-  p.bodies = {sphere, plane, sphere};
+  Body box, rod, drum;
+  box.shape = Body::Shape::box, box.size = {0.1, 0.25, 3}, box.turn = {10, -20, 360};
+  rod.shape = Body::Shape::capsule, rod.length = 1.5, rod.velocity = {0, -2, 0.5}, rod.spin = {1, 2, 3};
+  drum.shape = Body::Shape::cylinder, drum.path = {{-1, {0, 1, 2}}, {0.5, {3, 4, 5}}, {0.75, {-6, 0, 1e-3}}};
+  plane.turn = {0, 0, 15};
+  p.bodies = {sphere, plane, sphere, box, rod, drum};
   p.integrator = "euler";
   p.dt = 1e-7;
   p.engine = EngineKind::opencl;

@@ -39,6 +39,17 @@ struct Wrong {
   std::vector<std::string> parts;
 };
 
+TEST_CASE("a path that cannot be followed is refused") {
+  const auto body = [](const char* rest) { return std::string("{\"bodies\": [{\"r\": 0.1, ") + rest + "}]}"; };
+  for (const Wrong& wrong :
+       {Wrong{body("\"path\": 3"), {"bodies[0].path", "[t, x, y, z]"}},
+        {body("\"path\": [[0, 1, 2]]"), {"bodies[0].path[0]", "[t, x, y, z]"}},
+        {body("\"path\": [[0, 0, 0, 0], [0, 1, 0, 0]]"), {"bodies[0].path", "[1]", "later"}},
+        {body("\"path\": [[0, 0, 2e3, 0]]"), {"bodies[0].path", "[0]", "-1000 to 1000"}},
+        {body("\"velocity\": [1, 0, 0], \"path\": [[0, 0, 0, 0]]"), {"bodies[0].path", "not both"}}})
+    check_contains(error_of(wrong.text), wrong.parts);
+}
+
 TEST_CASE("an unknown key is refused with the nearest known one, its line and its path") {
   for (const Wrong& wrong :
        {Wrong{on_line_37("forces", "\"k_x\": 5"), {":37", "forces.k_x", "did you mean k"}},

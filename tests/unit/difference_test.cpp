@@ -33,7 +33,7 @@ TEST_CASE("a difference of a body is that body's alone, and needs it") {
   for (const BodyRow& row : body_notation()) {
     if (std::holds_alternative<glm::dvec3 Body::*>(row.field)) continue;
     CAPTURE(std::string(row.key));
-    preset.bodies[1].shape = row.key == "y" ? Body::Shape::plane : Body::Shape::sphere;
+    preset.bodies[1].shape = row.key == "y" ? Body::Shape::plane : Body::Shape::cylinder;
     const Difference difference(1, row, row.max);
     Preset changed = preset;
     CHECK(difference.apply(changed));

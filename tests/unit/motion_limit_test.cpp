@@ -40,7 +40,7 @@ void check_bound(Simulation& simulation, int steps) {
   double pushes = 0;  // out of bodies that the cloth begins in
   for (const Body& body : p.bodies)
     for (int n = 0; n < simulation.lattice().size(); ++n)
-      pushes += std::pow(std::max(depth(body, test::position(simulation.read(), n)), 0.0), 2);
+      pushes += std::pow(std::max(depth(placed(body), test::position(simulation.read(), n)), 0.0), 2);
   limit.begin(
       {2 / p.m * (simulation.energy().energy.kinetic + simulation.energy().energy.elastic()), 0, std::sqrt(pushes)});
   for (int n = 0; n < steps; ++n) {

@@ -10,6 +10,7 @@
 #include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/forces/contact.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -54,9 +55,24 @@ void body_block(Ui& ui, int index) {
   draw_text(*ImGui::GetWindowDrawList(), *ui.fonts.text, {lo.x, lo.y + ui.theme.px(3)}, ui.theme.colors.text,
             name_of_body(bodies, index));
   ImGui::SetCursorScreenPos({lo.x + width - side, lo.y});
-  if (quiet_button(ui, "remove", icon::trash, "remove", "Remove this body")) remove_body(ui, index);
-  for (const BodyRow& row : body_notation())
-    if (shape_has(shape, row.key)) body_row(ui, row, index);
+  if (quiet_button(ui, "remove", icon::trash, "remove", "Remove this body")) return remove_body(ui, index);
+  const ImVec2 below = ImGui::GetCursorScreenPos();
+  const Body& body = bodies[std::size_t(index)];
+  const bool moves = any_moves({&body, 1}) || body.turn != glm::dvec3(0);
+  bool* shown = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("motion"), moves);
+  ImGui::SetCursorScreenPos({lo.x + width - 2 * side - ui.theme.px(4), lo.y});
+  if (quiet_button(ui, "motion", icon::move, "motion",
+                   *shown ? "Hide how it is turned and moves" : "Show how it is turned and moves"))
+    *shown = !*shown;
+  ImGui::SetCursorScreenPos(below);
+  for (const BodyRow& row : body_notation()) {
+    const bool motion = row.key == "turn" || row.key == "velocity" || row.key == "spin";
+    if (shape_has(shape, row.key) && (!motion || *shown || moves)) body_row(ui, row, index);
+  }
+  if (!body.path.empty())
+    labeled_row(ui, "path", [&](float) {
+      ImGui::TextUnformatted((std::to_string(body.path.size()) + " keys, from the file").c_str());
+    });
 }
 
 std::vector<std::string> shipped_textures() {
@@ -211,11 +227,13 @@ void body_sections(Ui& ui) {
   if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();
   if (text_button(ui, "Add plane", false, room)) add_body(ui, Body::Shape::plane);
-  if (text_button(ui, "Box", false, room)) add_body(ui, Body::Shape::box);
   ImGui::SameLine();
-  if (text_button(ui, "Capsule", false, room)) add_body(ui, Body::Shape::capsule);
-  ImGui::SameLine();
-  if (text_button(ui, "Cylinder", false, room)) add_body(ui, Body::Shape::cylinder);
+  if (begin_combo(ui, "##other bodies", "More", ui.theme.px(64))) {
+    for (const Body::Shape shape : {Body::Shape::box, Body::Shape::capsule, Body::Shape::cylinder})
+      if (ImGui::Selectable(std::string(title_of(shape)).c_str(), false, room ? 0 : ImGuiSelectableFlags_Disabled))
+        add_body(ui, shape);
+    end_combo();
+  }
 }
 
 }  // namespace tyglab
