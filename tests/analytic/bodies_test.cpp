@@ -25,7 +25,7 @@ Preset particle(const std::string& integrator, glm::dvec3 x, glm::dvec3 v) {
   preset.k_s = 0, preset.g = g, preset.dt = 1e-3;
   preset.x_0 = x, preset.v_0 = v;
   preset.tilt_deg = -90;
-  preset.L = 50;
+  preset.L = 10;
   return preset;
 }
 
