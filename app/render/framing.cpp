@@ -34,6 +34,13 @@ bool hangs_from_top(const Pins& pins) {
           std::all_of(pins.list.begin(), pins.list.end(), in_top_row));
 }
 
+std::optional<double> plane_below(const Preset& p, double y) {
+  std::optional<double> highest;
+  for (const Body& body : p.bodies)
+    if (body.shape == Body::Shape::plane && body.y <= y) highest = std::max(body.y, highest.value_or(body.y));
+  return highest;
+}
+
 /// The height to which the cloth will come down, roughly.
 float lowest_hanging(const Preset& p, const Bounds& start) {
   const float length = float((p.rows - 1) * p.L), width = float((p.columns - 1) * p.L);
@@ -50,14 +57,11 @@ float lowest_hanging(const Preset& p, const Bounds& start) {
     default:
       break;
   }
-  return p.g > 0 ? start.lo.y - 0.6f * std::max(length, width) : start.lo.y;
-}
-
-std::optional<double> plane_below(const Preset& p, double y) {
-  std::optional<double> highest;
-  for (const Body& body : p.bodies)
-    if (body.shape == Body::Shape::plane && body.y <= y) highest = std::max(body.y, highest.value_or(body.y));
-  return highest;
+  if (!(p.g > 0)) return start.lo.y;
+  const float size = std::max(length, width), near = 3 * size;
+  // What nothing holds falls as far as a plane, where that is near enough to be seen with the cloth.
+  const auto plane = plane_below(p, start.lo.y);
+  return plane && start.lo.y - *plane < near ? float(*plane) : start.lo.y - 0.6f * size;
 }
 
 std::vector<glm::vec3> start_points(const Preset& p) {
@@ -81,7 +85,7 @@ void add_hanging_corners(std::vector<glm::vec3>& points, const Preset& p) {
                                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
       const glm::vec3 from = start_corner(p, pin->i, pin->j);
       points.push_back(from);
-      points.emplace_back(from.x, from.y - 0.85f * float(distance(*pin) * p.L), from.z);
+      points.emplace_back(from.x, from.y - 0.97f * float(distance(*pin) * p.L), from.z);
     }
   }
 }
