@@ -180,6 +180,7 @@ void view_section(Ui& ui) {
 
 /// When bodies act, where there are some.
 void contact_row(Ui& ui) {
+  come_into_sight(ui, "contact", row_columns(ui).height);
   labeled_row(ui, "contact", [&](float width) {
     const std::string now = ui.session.requested_preset().contact;
     const int chosen = int(std::find(contact_names.begin(), contact_names.end(), now) - contact_names.begin());
