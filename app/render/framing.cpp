@@ -35,6 +35,14 @@ bool hangs_from_top(const Pins& pins) {
           std::all_of(pins.list.begin(), pins.list.end(), in_top_row));
 }
 
+std::optional<double> plane_below(const Preset& p, double y) {
+  std::optional<double> highest;
+  for (const Body& body : p.bodies)
+    if (body.shape == Body::Shape::plane && body.turn == glm::dvec3(0) && body.y <= y)
+      highest = std::max(body.y, highest.value_or(body.y));
+  return highest;
+}
+
 /// The height to which the cloth will come down, roughly.
 float lowest_hanging(const Preset& p, const Bounds& start) {
   const float length = float((p.rows - 1) * p.L), width = float((p.columns - 1) * p.L);
@@ -51,15 +59,11 @@ float lowest_hanging(const Preset& p, const Bounds& start) {
     default:
       break;
   }
-  return p.g > 0 ? start.lo.y - 0.6f * std::max(length, width) : start.lo.y;
-}
-
-std::optional<double> plane_below(const Preset& p, double y) {
-  std::optional<double> highest;
-  for (const Body& body : p.bodies)
-    if (body.shape == Body::Shape::plane && body.turn == glm::dvec3(0) && body.y <= y)
-      highest = std::max(body.y, highest.value_or(body.y));
-  return highest;
+  if (!(p.g > 0)) return start.lo.y;
+  const float size = std::max(length, width), near = 3 * size;
+  // What nothing holds falls as far as a plane, where that is near enough to be seen with the cloth.
+  const auto plane = plane_below(p, start.lo.y);
+  return plane && start.lo.y - *plane < near ? float(*plane) : start.lo.y - 0.6f * size;
 }
 
 }  // namespace
@@ -97,7 +101,16 @@ void add_corners(std::vector<glm::vec3>& points, const Bounds& b) {
     points.emplace_back(k & 1 ? b.hi.x : b.lo.x, k & 2 ? b.hi.y : b.lo.y, k & 4 ? b.hi.z : b.lo.z);
 }
 
-/// Of the pins of a list, where the corners come to hang: below the nearest pin, nearly as far as the cloth reaches.
+/// How far the end of a cloth sinks that reaches `reach` beyond its pins, m. With a rigidity B it bends like a clamped
+/// strip, of which only G = weight · reach³/B counts.
+float sinks(const Preset& p, double reach) {
+  constexpr double limp = 0.97, small_bends = 8;  // a beam sinks by G/8 of its length
+  const double G_by_B = p.m * p.g * reach * reach * reach / (p.L * p.L);
+  const double part = p.B > 0 && p.g > 0 ? 1.25 * G_by_B / (G_by_B + small_bends * p.B) : limp;
+  return float(std::min(part, limp) * reach);
+}
+
+/// Of the pins of a list, where the corners come to hang: below the nearest pin.
 void add_hanging_corners(std::vector<glm::vec3>& points, const Preset& p) {
   for (int i : {0, p.rows - 1}) {
     for (int j : {0, p.columns - 1}) {
@@ -106,7 +119,7 @@ void add_hanging_corners(std::vector<glm::vec3>& points, const Preset& p) {
                                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
       const glm::vec3 from = start_corner(p, pin->i, pin->j);
       points.push_back(from);
-      points.emplace_back(from.x, from.y - 0.85f * float(distance(*pin) * p.L), from.z);
+      points.emplace_back(from.x, from.y - sinks(p, distance(*pin) * p.L), from.z);
     }
   }
 }

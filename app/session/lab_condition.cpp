@@ -210,6 +210,8 @@ std::string label_of(std::string_view name) {
 
 std::string shown_word(std::string_view name, std::string_view word) {
   if (name == "integrator") return std::string(scheme(word).title);
+  if (const auto k = std::find(contact_names.begin(), contact_names.end(), word); k != contact_names.end())
+    return contact_titles[std::size_t(k - contact_names.begin())];
   if (word == engine_names[0]) return "CPU";
   return word == engine_names[1] ? "OpenCL" : std::string(word);
 }

@@ -209,6 +209,12 @@ const std::array rows_but_forces{
                .word = [](const Session& session) { return precision_names[std::size_t(session.preset().precision)]; },
                .words = []() -> std::span<const std::string_view> { return precision_names; },
                .label = "Precision"},
+    Observable{.name = "contact",
+               .meaning = "When bodies act: when particles meet them, or at the end of the step.",
+               .place = "Bodies",
+               .word = [](const Session& session) -> std::string_view { return session.preset().contact; },
+               .words = []() -> std::span<const std::string_view> { return contact_names; },
+               .label = "Contact"},
     Observable{.name = "untouched",
                .meaning = "Whether the constants are those with which the step began, apart from those that its checks "
                           "name, and nobody has pulled or cut the cloth since the motion began.",

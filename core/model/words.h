@@ -19,6 +19,8 @@ inline constexpr std::array<std::string_view, 3> engine_names{"cpu", "opencl", "
 inline constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
 /// Values of solver.contact: within the step, or at its end (the report's rule).
 inline constexpr std::array<std::string_view, 2> contact_names{"local", "step"};
+/// As people call them.
+inline constexpr std::array<const char*, contact_names.size()> contact_titles{"when met", "at end of step"};
 constexpr std::string_view name_of(Kind v) {
   return kind_names[std::size_t(v)];
 }

@@ -58,6 +58,8 @@ TEST_CASE("a constant that a step asks for counts up to its bounds, and not beyo
       {"13_stiff", 0, "dt", 0.000121, 0.000119, 0.6, {}},
       {"13_stiff", 2, "dt", 0.001, 0.00099, 1.1, {"integrator=damped_verlet"}},
       {"13_stiff", 4, "dt", 0.01, 0.0099, 1.1, {"integrator=rkc2"}},
+      {"14_bend", 2, "B", 0.191, 0.189, 4, {}},
+      {"14_bend", 2, "B", 0.211, 0.213, 4, {}},
   };
   for (const Case& each : cases)
     for (const bool inside : {false, true}) {
@@ -207,7 +209,16 @@ TEST_CASE("what the motion measures lies well inside the bounds of the labs' che
                                 {"11_bending", 0, 10, {}},
                                 {"11_bending", 1, 10, {}},
                                 {"12_wind", 0, 12, {"W=[0,0,0.0009]"}},
-                                {"12_wind", 2, 15, {"gust_period=1.6"}}};
+                                {"12_wind", 2, 15, {"gust_period=1.6"}},
+                                {"14_bend", 0, 6, {}},
+                                {"14_bend", 1, 12, {"g=1.2275"}},
+                                {"14_bend", 2, 4, {"B=0.2"}},
+                                {"14_bend", 4, 3, {"twist=0"}},
+                                {"15_contact", 0, 2, {}},
+                                {"15_contact", 2, 2, {"contact=step", "dt=0.002"}},
+                                {"15_contact", 3, 4, {}},
+                                {"15_contact", 7, 1, {}},
+                                {"15_contact", 8, 1, {"contact=local"}}};
   for (const Case& each : cases) {
     CAPTURE(std::string(each.lab));
     CAPTURE(each.step);

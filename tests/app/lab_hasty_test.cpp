@@ -18,7 +18,7 @@ std::vector<std::string> asked_constants(const LabStep& step) {
   std::vector<std::string> settings;
   for (const Condition& check : step.checks) {
     if (check.span == Span::narrowed) continue;  // no value is asked for
-    if (check.name == "integrator" || check.name == "engine" || check.name == "precision") {
+    if (check.name == "integrator" || check.name == "engine" || check.name == "precision" || check.name == "contact") {
       settings.push_back(check.name + "=" + check.right.word);
     } else if (find_row(check.name) != nullptr && check.right.name.empty()) {
       const bool below = check.relation == Relation::less, above = check.relation == Relation::greater;

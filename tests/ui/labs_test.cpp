@@ -576,7 +576,11 @@ TEST_CASE("in a small frame the constant that a lab's step is about is in sight,
         const auto seen = [&](const std::string& part) {
           return window.sees("constants." + key + part) || window.sees("lab." + key + part);
         };
-        CHECK((seen(".slider") || seen(".x")));
+        const auto& checks = each.steps[step].checks;
+        if (std::any_of(checks.begin(), checks.end(), [](const Condition& c) { return c.name == "contact"; }))
+          CHECK((window.sees("constants.contact.2") || seen(".slider")));  // whichever it checks first
+        else
+          CHECK((seen(".slider") || seen(".x")));
         CHECK(window.ui.viewport.whole().y >= 100);
       }
     }
@@ -633,6 +637,18 @@ TEST_CASE("what a step tells to change is in sight in a low column too") {
   enter_step(window.session, 2);
   window.frames(8);
   CHECK(window.sees("constants.k_s.slider"));
+}
+
+TEST_CASE("where a step tells to change the time of contact, it is in sight, though its section was folded") {
+  test::NullUi window({.size = {900, 600}});
+  window.ui.settings.layout.folded.insert("Bodies");
+  find_labs(window.session);
+  begin_lab(window.session, "15_contact");
+  window.frames(8);
+  CHECK_FALSE(window.sees("constants.contact.2"));
+  enter_step(window.session, 1);
+  window.frames(8);
+  CHECK(window.sees("constants.contact.2"));
 }
 
 TEST_CASE("what has only held so far looks like no work that is done") {

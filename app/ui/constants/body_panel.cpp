@@ -200,11 +200,12 @@ void view_section(Ui& ui) {
 
 /// When bodies act, where there are some.
 void contact_row(Ui& ui) {
+  come_into_sight(ui, "contact", row_columns(ui).height);
   labeled_row(ui, "contact", [&](float width) {
-    static constexpr const char* times[] = {"when met", "at end of step"};
     const std::string now = ui.session.requested_preset().contact;
     const int chosen = int(std::find(contact_names.begin(), contact_names.end(), now) - contact_names.begin());
-    if (const int k = segments(ui, "contact", times, 2, chosen, 11, width); k >= 0 && k != chosen) {
+    if (const int k = segments(ui, "contact", contact_titles.data(), int(contact_titles.size()), chosen, 11, width);
+        k >= 0 && k != chosen) {
       Preset next = ui.session.requested_preset();
       next.contact = contact_names[std::size_t(k)];
       ui.session.propose(std::move(next));

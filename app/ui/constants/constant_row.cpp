@@ -244,15 +244,6 @@ void take_wanted_focus(Ui& ui, const std::string& key) {
   state.wanted_order = state.order;
 }
 
-/// Scrolls its column where it would not be seen whole.
-void come_into_sight(Ui& ui, const std::string& key, float height) {
-  SliderState& state = ui.slider;
-  if (state.shown_key != key) return;
-  state.shown_key.clear();
-  const float above = ImGui::GetCursorPosY() - state.rows_scroll;
-  if (above < 0 || above + 2 * height > ImGui::GetWindowHeight()) ImGui::SetScrollHereY(0.35f);
-}
-
 void vector_cells(Ui& ui, const Line& line, const RowColumns& columns, float slider_width) {
   const float width = slider_width + columns.gap + columns.value;
   const float cell = std::floor((width - 2 * ui.theme.px(4)) / 3);
@@ -312,6 +303,14 @@ RowColumns row_columns(const Ui& ui) {
   if (ui.row_width < ui.theme.px(narrow_at_1))
     return {ui.theme.px(26), ui.theme.px(40), ui.theme.px(56), ui.theme.px(36), ui.theme.px(4)};
   return {ui.theme.px(26), ui.theme.px(56), ui.theme.px(64), ui.theme.px(44), ui.theme.px(4)};
+}
+
+void come_into_sight(Ui& ui, std::string_view key, float height) {
+  SliderState& state = ui.slider;
+  if (state.shown_key != key) return;
+  state.shown_key.clear();
+  const float above = ImGui::GetCursorPosY() - state.rows_scroll;
+  if (above < 0 || above + 2 * height > ImGui::GetWindowHeight()) ImGui::SetScrollHereY(0.35f);
 }
 
 void constant_row(Ui& ui, const PresetRow& row) {

@@ -258,6 +258,7 @@ void show_constant(Ui& ui, std::string_view key) {
 
 void bring_into_sight(Ui& ui, std::string_view key) {
   ui.slider.shown_key = key;
+  if (key == "contact") ui.settings.layout.folded.erase("Bodies");
   for (const Heading& wanted : headings()) {
     const auto list = rows_of(wanted);
     if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;

@@ -46,6 +46,9 @@ void constant_row(Ui& ui, const PresetRow& row);
 /// The same for body `index`.
 void body_row(Ui& ui, const BodyRow& row, int index);
 
+/// Scrolls the column where the row of that key and height, which is to be drawn next, is to be in sight and is not.
+void come_into_sight(Ui& ui, std::string_view key, float height);
+
 /// A line whose slider column `content` fills (combos, buttons): a plain label stands where symbols do.
 void labeled_row(Ui& ui, const char* label, const std::function<void(float width)>& content);
 

@@ -52,21 +52,34 @@ void Ui::remember_recent() {
   recent.resize(std::min(recent.size(), most));
 }
 
+namespace {
+
+/// The constant that a check of the lab's step is about; null where it is about none that plays a part in this scene.
+const PresetRow* checked_constant(const Ui& ui, const Condition& check) {
+  const PresetRow* row = find_row(check.name.substr(0, check.name.find('.')));
+  return row != nullptr && applies(*row, ui.session.requested_preset()) ? row : nullptr;
+}
+
+}  // namespace
+
 std::vector<const PresetRow*> checked_constants(const Ui& ui) {
   std::vector<const PresetRow*> rows;
   if (!ui.session.labs.run) return rows;
-  for (const Condition& check : ui.session.labs.run->now().checks) {
-    const PresetRow* row = find_row(check.name.substr(0, check.name.find('.')));
-    if (row != nullptr && applies(*row, ui.session.requested_preset()) &&
-        std::count(rows.begin(), rows.end(), row) == 0)
+  for (const Condition& check : ui.session.labs.run->now().checks)
+    if (const PresetRow* row = checked_constant(ui, check);
+        row != nullptr && std::count(rows.begin(), rows.end(), row) == 0)
       rows.push_back(row);
-  }
   return rows;
 }
 
-/// What a step of a lab tells to change is to be in sight, in a low column too: the first constant that it checks.
+/// What a step of a lab tells to change is to be in sight, in a low column too: the first constant that it checks, or
+/// the time of contact, which is no number.
 void Ui::show_what_to_change() {
-  if (const auto rows = checked_constants(*this); !rows.empty()) bring_into_sight(*this, rows.front()->key);
+  for (const Condition& check : session.labs.run->now().checks) {
+    const PresetRow* row = checked_constant(*this, check);
+    if (row != nullptr || check.name == "contact")
+      return bring_into_sight(*this, row != nullptr ? row->key : check.name);
+  }
 }
 
 /// A left drag cuts, which a newcomer has not known: how to pull instead, and how to take it back.
