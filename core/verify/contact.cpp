@@ -76,15 +76,31 @@ void end_of_bounces(Trial& trial) {
   }
 }
 
-void elastic_bounces(Trial& trial) {
-  const double between = 2 * std::sqrt(2 * height / g);
+/// Calls look(simulation, bounce, time at its top) near the top after each of 100 bounces with e = 1.
+template <class Look>
+void bounce_on(Trial& trial, const Look& look) {
   for (const char* method : exact_falls) {
     Preset preset = particle(method, {0, height, 0}, {0, 0, 0});
     preset.bodies = {floor(0, 1)};
     Simulation simulation = trial.start(preset);
-    trial.advance(simulation, std::lround(100 * between / preset.dt));
-    trial.compare(height, reaches(simulation), method);
+    for (int bounce = 1; bounce <= 100; ++bounce) {
+      const double top = bounce * 2 * std::sqrt(2 * height / g);
+      trial.advance(simulation, std::lround(top / preset.dt) - simulation.steps());
+      look(simulation, top, std::string(method) + ", bounce " + std::to_string(bounce));
+    }
   }
+}
+
+void elastic_bounces(Trial& trial) {
+  bounce_on(trial, [&](const Simulation& simulation, double, const std::string& at) {
+    trial.compare(height, reaches(simulation), at);
+  });
+}
+
+void bounce_times(Trial& trial) {
+  bounce_on(trial, [&](const Simulation& simulation, double top, const std::string& at) {
+    trial.compare(top, simulation.time() + simulation.particle(0, 0).v.y / g, at);
+  });
 }
 
 void slide(Trial& trial) {
@@ -161,6 +177,8 @@ std::span<const Case> contact_cases() {
       Case{"elastic_bounces", "A hundred bounces without loss",
            "A ball with e = 1 returns to its height 100 times, with steps of 1 ms that know nothing of the impacts.",
            "$h_n = h$", "Conservation of energy", "m", 1e-9, 0, elastic_bounces},
+      Case{"bounce_times", "When a hundred bounces come", "The same ball: the times at which it is at its top.",
+           "$t_n = 2n\\sqrt{2h/g}$", "Free fall", "s", 1e-9, 0, bounce_times},
       Case{"slide", "Friction stops a slide", "A particle is thrown along a rough floor and stops.",
            "$s = \\frac{v^2}{2\\mu g}$", "C. A. de Coulomb (1785); report 2.1.5", "m", 1e-7, 0, slide},
       Case{"slope", "Angle of friction",
