@@ -196,7 +196,7 @@ std::span<const Case> bending_cases() {
           "$\\theta'' = -\\frac{q}{B}(L - s)\\cos\\theta$; drop 0.12347, 0.70020, 0.93752, 0.98114 L at $qL^3/B$ = 1, "
           "10, "
           "100, 1000",
-          "L. Euler (1744); K. E. Bisshopp, D. C. Drucker (1945)", "m", 6e-4, 0.15, elastica},
+          "L. Euler's elastica (1744), solved by Runge-Kutta's method", "m", 6e-4, 0.15, elastica},
       Case{"strip_of_springs", "Clamped strip of the report's springs",
            "The same strip in motion until it rests, qL³/B = 1 and 100: its springs do not push, so its threads become "
            "a little shorter than the elastica's.",

@@ -159,7 +159,7 @@ std::span<const Case> method_cases() {
            "The phase that one step adds to an oscillation, at hω = 0.08, 0.4 and 1.2.",
            "$2\\arcsin\\tfrac{h\\omega}2$ (Verlet), $2\\arctan\\tfrac{h\\omega}2$ (implicit midpoint), "
            "$\\arctan h\\omega$ (Euler, implicit Euler), $\\arg R(ih\\omega)$ (Runge-Kutta 4, TR-BDF2)",
-           "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1", "rad", 1e-6, 0, method_frequency},
+           "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I", "rad", 1e-6, 0, method_frequency},
       Case{
           "method_growth", "How methods let an oscillator grow or decay",
           "The factor that one step puts on an oscillation, at hω = 0.08, 0.4 and 1.2.",
@@ -168,7 +168,7 @@ std::span<const Case> method_cases() {
           "Eigenvalues of one step; E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2", "", 1e-8,
           0, method_growth},
       Case{"energy", "Energy of symplectic methods",
-           "An undamped taut sheet is shaken and swings for 110,000 steps: its energy, averaged over 10,000 steps at "
+           "An undamped taut sheet is shaken and swings for 120,000 steps: its energy, averaged over 10,000 steps at "
            "the "
            "beginning and at the end, stays what it was.",
            "$\\overline{E}(t) = \\overline{E}(0)$",
