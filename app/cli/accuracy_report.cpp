@@ -26,10 +26,6 @@ void flush_line(std::ostream& out, const std::string& line) {
   flush_standard_output();
 }
 
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json row_json(const AccuracyRow& row) {
   Json json = {{"scene", row.scene},
                {"engine", name_of(row.engine)},
@@ -39,7 +35,7 @@ Json row_json(const AccuracyRow& row) {
                {"steps", row.steps},
                {"force_evaluations", row.force_evaluations},
                {"seconds", row.seconds},
-               {"error_rms_m", number_or_null(row.error_rms_m)},
+               {"error_rms_m", finite_or_null(row.error_rms_m)},
                {"status", name_of(row.status)}};
   if (row.tolerance) json["tolerance"] = *row.tolerance;
   if (row.unconverged > 0) json["unconverged_solves"] = row.unconverged;

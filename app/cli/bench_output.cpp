@@ -1,6 +1,7 @@
 #include "app/cli/bench_output.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -58,6 +59,10 @@ nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordere
           {"build", build_description()},
           {"date", today()},
           {"runs", std::move(runs)}};
+}
+
+nlohmann::ordered_json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 Reach bench_reach() {

@@ -34,6 +34,9 @@ CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string
 /// The frame of a benchmark's JSON: its name, the machine, the version and build, and the rows under "runs".
 nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs);
 
+/// null where a number is not finite, since JSON has no word for it.
+nlohmann::ordered_json finite_or_null(double value);
+
 /// The completeness of the results of a benchmark under an InterruptGuard, which Ctrl-C can cut short.
 Reach bench_reach();
 /// Its exit code; if Ctrl-C ended it, says so and where the results so far are.

@@ -10,7 +10,7 @@ namespace tyglab {
 Wants& Wants::operator|=(const Wants& other) {
   for (const auto want :
        {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings, &Wants::settings_kept, &Wants::map,
-        &Wants::ledger, &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
+        &Wants::verification, &Wants::ledger, &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
     this->*want |= other.*want;
   return *this;
 }
@@ -24,6 +24,7 @@ void Studies::update(const Wants& wants, StudyMoment& moment) {
   else if (!wants.settings_kept)
     settings.drop();
   wants.map ? map.poll(moment) : map.drop();
+  wants.verification ? verification.poll(moment) : verification.drop();
 }
 
 void DeviceSearch::begin() {

@@ -11,6 +11,7 @@
 #include "app/studies/moment.h"
 #include "app/studies/settings_watch.h"
 #include "app/studies/stability_watch.h"
+#include "app/studies/verify_watch.h"
 #include "core/analysis/convergence.h"
 #include "core/analysis/settings_search.h"
 #include "core/engines/opencl/opencl_devices.h"
@@ -74,6 +75,7 @@ struct Wants {
   bool settings = false;                                ///< settings for an error
   bool settings_kept = false;                           ///< a search for them that was asked for goes on out of sight
   bool map = false;                                     ///< stiffness against dt
+  bool verification = false;                            ///< the gallery of exact answers, while its card is open
   bool ledger = false;                                  ///< where energy comes from and goes
   bool step = false;                                    ///< the picked particle's next step, written out
   bool forces = false, height = false, copies = false;  ///< samples for their plots
@@ -87,6 +89,7 @@ struct Studies {
   ConvergenceWatch convergence;
   SettingsWatch settings;
   MapWatch map;
+  VerifyWatch verification;
   EngineSearch engine;
   DeviceSearch devices;
 

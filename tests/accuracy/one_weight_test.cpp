@@ -1,10 +1,9 @@
-// The closed form of one weight, and the frequency and decay that each method makes of it.
+// The closed form of one weight, and runs beside it.
 #include "core/analysis/one_weight.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "tests/support/scenes.h"
@@ -16,10 +15,6 @@ Preset oscillator(const std::string& integrator, double dt) {
   Preset preset = test::one_weight(integrator);
   preset.g = 0, preset.dt = dt;
   return preset;
-}
-
-double omega(const Preset& preset) {
-  return std::sqrt(preset.k / preset.m);
 }
 
 TEST_CASE("the closed form satisfies its equation of motion, damped in every way") {
@@ -61,56 +56,6 @@ TEST_CASE("a run that diverges says so, and one that is stopped ends") {
   Preset preset = oscillator("verlet", 0.5);
   CHECK(run_weight(preset, 1000, [] { return false; }).diverged);
   CHECK(run_weight(preset, 1000, [] { return true; }).t.empty());
-}
-
-/// The phase (rad) and growth of one step, from y at three neighboring steps far from the start: y = r^n cos(n φ + c).
-struct StepFactor {
-  double phase, growth;
-};
-
-StepFactor factor(const Preset& preset) {
-  Simulation simulation(preset);
-  simulation.advance(40);
-  double y[4];
-  for (double& value : y) {
-    value = simulation.positions().at(0, 0).y - preset.x_0.y;
-    simulation.advance(1);
-  }
-  // y[n+1] = p y[n] - q y[n-1], whose roots are r exp(±iφ).
-  const double det = y[1] * y[1] - y[0] * y[2];
-  const double p = (y[1] * y[2] - y[0] * y[3]) / det, q = (y[2] * y[2] - y[1] * y[3]) / det;
-  const double growth = std::sqrt(q);
-  return {std::acos(p / (2 * growth)), growth};
-}
-
-TEST_CASE("each method turns the oscillator at the frequency that is known of it") {
-  for (const double h : {0.004, 0.02, 0.06}) {
-    CAPTURE(h);
-    for (const char* name : {"verlet", "semi_implicit_euler", "velocity_verlet"}) {
-      CAPTURE(std::string(name));
-      const Preset preset = oscillator(name, h);
-      const StepFactor step = factor(preset);
-      CHECK(step.phase == doctest::Approx(2 * std::asin(h * omega(preset) / 2)).epsilon(1e-7));
-      CHECK(step.growth == doctest::Approx(1).epsilon(1e-9));
-    }
-    const Preset midpoint = oscillator("implicit_midpoint", h);
-    const StepFactor middle = factor(midpoint);
-    CHECK(middle.phase == doctest::Approx(2 * std::atan(h * omega(midpoint) / 2)).epsilon(1e-7));
-    CHECK(middle.growth == doctest::Approx(1).epsilon(1e-9));
-  }
-}
-
-TEST_CASE("implicit Euler decays and Euler grows by √(1 + (hω)²) a step, both late by atan(hω)") {
-  for (const double h : {0.004, 0.02}) {
-    CAPTURE(h);
-    for (const bool implicit : {true, false}) {
-      const Preset preset = oscillator(implicit ? "implicit_euler" : "euler", h);
-      const double hw = h * omega(preset), growth = std::sqrt(1 + hw * hw);
-      const StepFactor step = factor(preset);
-      CHECK(step.phase == doctest::Approx(std::atan(hw)).epsilon(1e-7));
-      CHECK(step.growth == doctest::Approx(implicit ? 1 / growth : growth).epsilon(1e-8));
-    }
-  }
 }
 
 }  // namespace tyglab::one_weight_test

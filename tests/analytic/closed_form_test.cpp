@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <complex>
 #include <glm/geometric.hpp>
 
 #include "core/io/preset_io.h"
@@ -116,18 +115,6 @@ TEST_CASE("one weight under Verlet is the exact solution of y[n+1] - 2 y[n] + y[
     CHECK(simulation.positions().at(0, 0).y == doctest::Approx(y_eq + A * std::cos(n * phi)).epsilon(1e-9));
     simulation.advance(100);
   }
-}
-
-TEST_CASE("Euler's amplitude on one weight grows by sqrt(1 + (h w)^2) a step") {
-  Preset preset = test::one_weight("euler");
-  preset.g = 0;
-  preset.v_0 = {0, 0, 0};
-  Simulation simulation(preset);
-  const double w = std::sqrt(preset.k / preset.m), h = preset.dt;
-  simulation.advance(2000);
-  const std::complex<double> z = preset.offset * std::pow(std::complex<double>(1, -h * w), 2000);
-  CHECK(simulation.positions().at(0, 0).y - preset.x_0.y == doctest::Approx(z.real()).epsilon(1e-8));
-  CHECK(simulation.read_raw().v.y[0] == doctest::Approx(z.imag() * w).epsilon(1e-8));
 }
 
 TEST_CASE("the energy of one undamped weight stays bounded under Verlet") {

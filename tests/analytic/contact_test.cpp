@@ -68,24 +68,6 @@ TEST_CASE("what a step makes of a constant acceleration is known for every metho
   }
 }
 
-TEST_CASE("a ball that loses nothing returns to its height a hundred times") {
-  for (const std::string& method : second_order) {
-    CAPTURE(method);
-    constexpr double height = 0.3;
-    Preset preset = particle(method, {0, height, 0}, {0, 0, 0});
-    preset.bodies = {plane(0, 1)};
-    Simulation simulation(preset);
-    const double between = 2 * std::sqrt(2 * height / g);
-    for (int bounce = 1; bounce <= 100; ++bounce) {
-      simulation.advance(int(std::lround(bounce * between / preset.dt)) - int(simulation.steps()));
-      const glm::dvec3 x = x_of(simulation), v = v_of(simulation);
-      // Near its highest point: the height that it would reach.
-      CHECK(std::abs(x.y + v.y * v.y / (2 * g) - height) < 1e-6);
-      CHECK(std::abs(simulation.time() - bounce * between - v.y / -g) < 1e-6);
-    }
-  }
-}
-
 TEST_CASE("bounces end when their series does, and nothing hovers") {
   for (const Scheme& method : schemes()) {
     if (method.name == "euler") continue;

@@ -99,6 +99,7 @@ TEST_CASE("0: help of the program and of every command, with an example; version
                {{"presets", "check", "--help"}, 0, "xample"},
                {{"labs", "check", "--help"}, 0, "xample"},
                {{"devices", "--help"}, 0, "xample"},
+               {{"verify", "--help"}, 0, "xample"},
                {{"presets"}, 0, "denim"},
                {{"labs"}, 0, "01_hooke"},
                {{"run", "hanging", "--dt", "auto", "--steps", "5"}, 0, "--dt auto chose"},

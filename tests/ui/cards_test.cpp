@@ -8,6 +8,7 @@
 
 #include "app/base/glfw_keys.h"
 #include "app/session/lab_state.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/frame/frame.h"
 #include "core/analysis/convergence.h"
 #include "tests/support/sanitized.h"
@@ -472,6 +473,63 @@ TEST_CASE("what the Energy card shows moves no divergence") {
     steps[open] = window.cloth().divergence()->step;
   }
   CHECK(steps[0] == steps[1]);
+}
+
+TEST_CASE("the gallery of exact answers is measured beside the frames, until it is stopped or its card is closed") {
+  test::NullUi window;
+  window.pause();
+  const VerifyWatch& watch = studies(window).verification;
+  CHECK_FALSE(window.session.wants.verification);
+  window.find("exact answers");
+  window.frames(2);
+  CHECK(window.session.wants.verification);
+  CHECK(window.drew("Cases with exact or published answers."));
+  CHECK(window.drew("Free fall, damped and not"));
+  CHECK(window.drew("not measured yet"));
+  CHECK_FALSE(watch.running());
+  window.click("plots.Run");
+  window.until([&] { return watch.findings() && watch.findings()->cases.size() >= 2; }, "two cases");
+  CHECK(watch.running());
+  window.frames(2);
+  CHECK(window.drew("measured 4.91 m, exact 4.91 m"));
+  CHECK(window.drew(" hold, "));
+  window.click("plots.Stop");
+  CHECK_FALSE(watch.running());
+  window.frames(2);
+  CHECK(window.drew("stopped after "));
+  for (const VerifiedCase& one : watch.findings()->cases) CHECK(one.ok);
+  window.click("plots.close_verification");
+  window.frames(2);
+  CHECK_FALSE(window.session.wants.verification);
+  CHECK_FALSE(watch.findings().has_value());
+}
+
+TEST_CASE("what is said of a run of the gallery") {
+  VerifyFindings findings;
+  CHECK(verify_words(findings, true).starts_with("Measuring the first of "));
+  findings.cases.resize(3);
+  findings.cases[0].ok = findings.cases[2].ok = true;
+  CHECK(verify_words(findings, true).starts_with("2 of 3 hold, 3 of "));
+  CHECK(verify_words(findings, false).starts_with("2 of 3 hold; stopped after 3 of "));
+  findings.done = true;
+  CHECK(verify_words(findings, false) == "2 of 3 hold.");
+  findings.problem = "It is too hot.";
+  CHECK(verify_words(findings, false) == "It is too hot.");
+}
+
+TEST_CASE("the findings of the gallery go through bytes as they are") {
+  VerifyFindings findings;
+  findings.cases = {{"slide", 1, 2, 0.5, 2.0, false, "rk4"}, {"wind", 3, 3, 0, {}, true, ""}};
+  findings.problem = "none", findings.done = true;
+  const VerifyFindings back = from_bytes<VerifyFindings>(bytes_of(findings));
+  REQUIRE(back.cases.size() == 2);
+  CHECK(back.cases[0].name == "slide");
+  CHECK(back.cases[0].order == 2.0);
+  CHECK(back.cases[0].at == "rk4");
+  CHECK_FALSE(back.cases[1].order.has_value());
+  CHECK(back.cases[1].ok);
+  CHECK(back.problem == "none");
+  CHECK(back.done);
 }
 
 }  // namespace tyglab::cards_test

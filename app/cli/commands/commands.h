@@ -23,6 +23,8 @@ void add_render_command(CLI::App& program, Action& action);
 void add_presets_command(CLI::App& program, Action& action);
 /// `tyglab labs`: lists the labs, and checks a lab file.
 void add_labs_command(CLI::App& program, Action& action);
+/// `tyglab verify`: the gallery of exact and published answers.
+void add_verify_command(CLI::App& program, Action& action);
 /// `tyglab devices`: lists where a simulation can run.
 void add_devices_command(CLI::App& program, Action& action);
 /// `tyglab try-opencl`, which only the program itself starts (app/process/program_run.h) and help does not list.

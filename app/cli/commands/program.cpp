@@ -46,6 +46,7 @@ void declare_program(CLI::App& program, Action& action) {
   add_labs_command(program, action);
   add_bench_command(program, action);
   add_stability_command(program, action);
+  add_verify_command(program, action);
   add_devices_command(program, action);
   add_try_opencl_command(program, action);
 }

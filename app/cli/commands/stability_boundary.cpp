@@ -33,11 +33,6 @@ struct Part {
   double within;  ///< of its prediction; 0: not checked
 };
 
-/// null where a number is not finite, since JSON has no word for it.
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json row_json(const BoundaryRow& row, What what, const BoundaryCases& cases) {
   const Preset& p = row.preset;
   Json json = {{"scene", what == What::slack ? "hanging" : "taut_sheet"}, {"integrator", p.integrator}};
@@ -45,9 +40,9 @@ Json row_json(const BoundaryRow& row, What what, const BoundaryCases& cases) {
   if (what == What::k_s || what == What::growth) json["dt"] = p.dt;
   json["k_d"] = p.k_d;
   const std::string quantity = what == What::k_s ? "k_s" : what == What::growth ? "growth_per_step" : "dt";
-  json[quantity + "_predicted"] = finite(row.predicted);
-  json[quantity + "_measured"] = finite(row.measured);
-  json["ratio"] = finite(row.ratio());
+  json[quantity + "_predicted"] = finite_or_null(row.predicted);
+  json[quantity + "_measured"] = finite_or_null(row.measured);
+  json["ratio"] = finite_or_null(row.ratio());
   json["rows"] = p.rows, json["columns"] = p.columns;
   if (what != What::slack) return json;
   json["dt_any_configuration"] = row.any_configuration;

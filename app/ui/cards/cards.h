@@ -20,7 +20,7 @@ struct Ui;
 namespace card_name {
 inline constexpr const char *height = "Height", *forces = "Forces", *distances = "Distances", *map = "Map",
                             *step = "Step", *copies = "Copies", *stability = "Stability", *accuracy = "Accuracy",
-                            *energy = "Energy", *performance = "Performance";
+                            *energy = "Energy", *performance = "Performance", *verification = "Verification";
 }
 
 /// Whether it is the card whose tab is chosen.
@@ -91,6 +91,13 @@ std::string formula_of(const Scheme& method, const TracedAssignment& assignment)
 
 /// Draws the map at the cursor; a click takes stiffness and dt from it, resting says what became of a cell.
 void stability_map(Ui& ui, ImVec2 size);
+
+// The gallery of `tyglab verify`.
+
+/// Lists its cases at the cursor, with a button that measures them.
+void verification(Ui& ui, ImVec2 size);
+/// "12 of 12 hold, 12 of 40 measured.": how far a run has come.
+std::string verify_words(const VerifyFindings& findings, bool running);
 
 // The parts of a frame and a step: which ran, which were skipped, and their times.
 

@@ -52,6 +52,12 @@ void inside_card(Ui& ui, float height) {
   inside_step(ui, card.inner().size);
 }
 
+void verification_card(Ui& ui, float height) {
+  const PlotCard card(ui, "verification", card_name::verification, "", height, 1);
+  if (card.head_button(ui, 0, "close_verification", icon::close, "×", "Close")) ui.command("toggle_verification");
+  verification(ui, card.inner().size);
+}
+
 /// Height of a card of which that much (at scale 1) is the least that says something.
 template <int content_at_1>
 float least_of(const Ui& ui, float) {
@@ -89,6 +95,8 @@ std::vector<Card> tool_cards(const Ui& ui) {
   cards.push_back({card_name::accuracy, accuracy_card, accuracy_card_height, small ? accuracy : nullptr});
   cards.push_back({card_name::energy, energy_card, energy_card_height, &Wants::ledger});
   if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<330>, &Wants::step});
+  if (ui.plots.verification)
+    cards.push_back({card_name::verification, verification_card, least_of<330>, &Wants::verification});
   cards.push_back({card_name::performance, performance_card, performance_card_height});
   return cards;
 }

@@ -22,6 +22,13 @@ void toggle_card(Ui& ui) {
   if (open) show_card(ui, name);
 }
 
+/// The same of the card of exact answers, which no session remembers.
+void toggle_verification(Ui& ui) {
+  bool& open = ui.plots.verification;
+  open = !(open && layout_wants(ui, ImGui::GetIO().DisplaySize).verification);
+  if (open) show_card(ui, card_name::verification);
+}
+
 std::string no_weight(const Ui& ui) {
   return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
 }
@@ -108,6 +115,16 @@ std::vector<CommandRow> card_rows() {
        "",
        "accuracy tolerance target method integrator dt cheapest fastest",
        show_settings_finder},
+      {"toggle_verification",
+       "Verification: exact answers",
+       "",
+       {},
+       "",
+       "verify proof gallery published test correct card",
+       toggle_verification,
+       nullptr,
+       {},
+       [](const Ui& ui) { return ui.plots.verification; }},
       {"show_energy", "Energy card", "", {}, "", "ledger work kinetic potential", show<card_name::energy>},
       {"show_performance",
        "Performance card",

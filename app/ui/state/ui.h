@@ -48,6 +48,7 @@ struct Plots {
   std::set<std::string_view> hidden{"F", "F_int", "F_ext"};  ///< curves of forces, of force_keys()
   std::array<bool, 4> figure_hidden{};
   AccuracySide accuracy = AccuracySide::errors;
+  bool verification = false;          ///< whether the card of the gallery of exact answers is there
   char target[32] = "1e-4";           ///< of the settings to be found: the largest error, m, as it is typed
   std::optional<float> finder_needs;  ///< height of the search for them, pixels at scale 1, once it is known
 };
