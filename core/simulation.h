@@ -188,7 +188,12 @@ class Simulation {
   void fix(std::span<const int> pinned, const Held& held);
   void diverge(const AdvanceResult& part);
   AdvanceResult advance_part(int steps);
-  void watch_step();
+  AdvanceResult advance_engine(int steps);
+  AdvanceResult step_to_impacts();
+  double time_of_impact(const State& before, const Tears& tears, double t, int particle, int body, double first,
+                        State& after);
+  /// A step of the engine, with these constants, has been made.
+  void watch_step(const Preset& made);
   void watch_edit(Ledger::Source source);
 
   Preset preset_;

@@ -10,14 +10,7 @@
 #include "core/simulation.h"
 
 namespace tyglab {
-namespace {
-
-double rounding_unit(Precision precision) {
-  return precision == Precision::float_ ? double(std::numeric_limits<float>::epsilon())
-                                        : std::numeric_limits<double>::epsilon();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 const State& Simulation::read() {
   if (state_revision_ == revision_) return state_;
@@ -64,7 +57,7 @@ ParticleReadout Simulation::particle(int i, int j) const {
   if (out.held) out.forces.give_hand(-out["F"]);
   out.x = now.x(i, j), out.v = now.v(i, j);
   out.a = out.pinned ? glm::dvec3(0) : out["F"] / preset_.m;
-  out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
+  out.on_body = !out.pinned && !out.held &&
                 held_by_contact(placed_bodies(acting().bodies, time(), preset_.dt, rounding_unit(preset_.precision)),
                                 preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
   return out;
@@ -110,9 +103,9 @@ void Simulation::watch_edit(Ledger::Source source) {
   watch_->edited(energy(), source);
 }
 
-void Simulation::watch_step() {
+void Simulation::watch_step(const Preset& made) {
   ++revision_;
-  watch_->after_step(acting(), tears_, read(), held_, engine_->contacts());
+  watch_->after_step(made, tears_, read(), held_, engine_->contacts());
 }
 
 }  // namespace tyglab

@@ -18,7 +18,7 @@ typedef struct {
   BODY_REAL kick;     // what the step's last sweep adds to the stored velocity, divided by dt a
   BODY_REAL lag;      // the stored velocity is that of lag dt ago
   int at_ends;        // the report's rule: contact is seen at the ends of steps alone
-  int unused;
+  int upright;        // the particle moves along y alone: the mass on a spring
 } ContactRule;
 
 /// A path with constant acceleration: position, velocity, acceleration.
@@ -414,6 +414,13 @@ INLINE void slide(global const Body* body, BODY_REAL3 n, BODY_REAL press, BODY_R
   f->path.a = left > 0 ? (end - begin) / left : VECTOR(0, 0, 0);
 }
 
+/// Whether what has met a body, at that speed away from it, rests there: the next flight would last 2 e u_n/press, and one
+/// that ends within a step is none.
+INLINE int rests(global const Body* body, BODY_REAL outward, BODY_REAL press, BODY_REAL dt) {
+  const BODY_REAL leaves = outward > 0 ? outward : -body->restitution * outward;
+  return press > 0 && 2 * leaves <= 1.0001f * press * dt;
+}
+
 /// What the first body on the path does, and when. Returns its number, or -1 where none is met; `last` was met before.
 INLINE int meet_next(global const Body* bodies, int count, ContactRule rule, int last, Flight* f) {
   int hit = -1;
@@ -423,7 +430,9 @@ INLINE int meet_next(global const Body* bodies, int count, ContactRule rule, int
     global const Body* body = bodies + n;
     const BODY_REAL tolerance = tolerance_at(body, f->path.p, rule.epsilon);
     if (n == last || !crosses(body, f->path.p, begin, f->x, rule.dt, tolerance)) continue;
-    const BODY_REAL t = first_touch(body, f->path, begin, f->left, tolerance);
+    BODY_REAL t = first_touch(body, f->path, begin, f->left, tolerance);
+    // The step itself may end a little deeper than the path.
+    if (t < 0 && gap_at(body, f->x, rule.dt) < 0) t = f->left;
     if (t >= 0 && (hit < 0 || t < soonest)) hit = n, soonest = t;
   }
   if (hit < 0) return -1;
@@ -443,10 +452,8 @@ INLINE int meet_next(global const Body* bodies, int count, ContactRule rule, int
   Flight ridden = *f;
   if (body->moves) mount(body, now, &ridden);
   const BODY_REAL3 u = ridden.path.u;
-  // The next flight would last 2 e u_n/press; one that ends within a step is none.
   const BODY_REAL outward = dot(u, n), press = -dot(ridden.path.a, n) - turn_at(body, at, n, u, now);
-  const BODY_REAL leaves = outward > 0 ? outward : -body->restitution * outward;
-  if (press > 0 && 2 * leaves <= 1.0001f * press * rule.dt) {
+  if (rests(body, outward, press, rule.dt)) {
     slide(body, n, press, now, &ridden);
     if (body->moves) dismount(body, now, &ridden);
     *f = ridden;
@@ -497,8 +504,12 @@ INLINE int meets(global const Body* bodies, int count, ContactRule rule, BODY_RE
 /// Takes a particle that meets bodies through a step, by the rule.
 INLINE int collide(global const Body* bodies, int count, ContactRule rule, BODY_REAL3 old, BODY_REAL3 v_before,
                    BODY_REAL3* x, BODY_REAL3* v) {
-  return rule.at_ends ? collide_at_end(bodies, count, rule, old, x, v)
-                      : collide_on_path(bodies, count, rule, old, v_before, x, v);
+  const int left = rule.at_ends ? collide_at_end(bodies, count, rule, old, x, v)
+                                : collide_on_path(bodies, count, rule, old, v_before, x, v);
+  if (!rule.upright) return left;
+  *x = VECTOR(old.x, x->y, old.z);
+  *v = VECTOR(0, v->y, 0);
+  return is_inside(bodies, count, rule, *x);
 }
 
 #endif

@@ -184,7 +184,7 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
   assert(state.stride >= lattice.columns);
   Motion motion;
   double speeds = 0, pushes = 0;
-  const bool meets_bodies = preset.kind == Kind::cloth && !bodies.empty();
+  const bool meets_bodies = !bodies.empty();
   for (int i = 0; i < lattice.rows; ++i)
     for (int j = 0; j < lattice.columns; ++j) {
       speeds += speed_squared(state, i, j);

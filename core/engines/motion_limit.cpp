@@ -57,7 +57,7 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   const double at_hand = std::sqrt(sum_of(&Force::at_particle, p) / p.m);
   acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind) + at_hand * hand_speed;
   // A body that moves may throw the cloth about: what energy that is no formula says.
-  if (cloth && any_moves(p.bodies)) acceleration_ = std::numeric_limits<double>::infinity();
+  if (any_moves(p.bodies)) acceleration_ = std::numeric_limits<double>::infinity();
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
   fastest_mode_ = std::sqrt(sum_of(&Force::largest_eigenvalue, p) / p.m);
   reach_squared_ = reach_squared(p, lattice);

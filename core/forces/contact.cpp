@@ -30,7 +30,7 @@ using glm::cross, glm::dot, std::cos, std::fabs, std::fmax, std::fmin, std::sin,
 #undef BODIES
 
 ContactRule rule_of(const Contacts& of) {
-  return {of.dt, of.epsilon, of.g, of.shape.position, of.shape.last_kick, of.lag, of.at_ends, 0};
+  return {of.dt, of.epsilon, of.g, of.shape.position, of.shape.last_kick, of.lag, of.at_ends, of.upright};
 }
 
 }  // namespace
@@ -169,13 +169,53 @@ bool held_by_contact(std::span<const PlacedBody> bodies, double dt, double epsil
   });
 }
 
+double rounding_unit(Precision precision) {
+  return precision == Precision::float_ ? double(std::numeric_limits<float>::epsilon())
+                                        : std::numeric_limits<double>::epsilon();
+}
+
 Contacts contacts_of(const Preset& preset, double dt, double epsilon) {
   const Scheme& method = scheme(preset.integrator);
-  return {preset.contact == "step", dt, preset.g, epsilon, step_shape(method), method.lag};
+  return {preset.contact == "step",       dt, preset.g, epsilon, step_shape(method), method.lag,
+          preset.kind == Kind::one_weight};
 }
 
 bool meets_within_steps(const Preset& preset) {
-  return preset.kind == Kind::cloth && !preset.bodies.empty() && preset.contact != "step";
+  return !preset.bodies.empty() && preset.contact != "step";
+}
+
+std::optional<Impact> first_impact(std::span<const PlacedBody> bodies, double dt, double epsilon,
+                                   const glm::dvec3& old_x, const glm::dvec3& old_v, const glm::dvec3& x, bool& met) {
+  std::optional<Impact> first;
+  const contact::Path path{old_x, old_v, 2.0 / (dt * dt) * (x - old_x - dt * old_v)};
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const PlacedBody* body = &bodies[n];
+    const double tolerance = contact_tolerance(*body, old_x, epsilon);
+    if (!contact::crosses(body, old_x, 0, x, dt, tolerance)) continue;
+    const double t = contact::first_touch(body, path, 0, dt, tolerance);
+    if (t < 0) continue;
+    met = true;
+    if (t == 0 || (first && first->time <= t)) continue;
+    contact::Flight ridden{{contact::on_path(path, t), path.u + t * path.a, path.a}, dt - t, x, path.u + dt * path.a};
+    if (body->moves) contact::mount(body, t, &ridden);
+    const contact::Path& own = ridden.path;
+    const glm::dvec3 normal = contact::normal_at(body, own.p, t);
+    const double outward = dot(own.u, normal);
+    const double press = -dot(own.a, normal) - contact::turn_at(body, own.p, normal, own.u, t);
+    if (outward < 0 && !contact::rests(body, outward, press, dt)) first = Impact{int(n), t};
+  }
+  return first;
+}
+
+Approach approach(const PlacedBody& body, double time, const glm::dvec3& x, const glm::dvec3& v) {
+  return {contact::gap_at(&body, x, time),
+          -dot(v - contact::surface_velocity(&body, x, time), contact::normal_at(&body, x, time))};
+}
+
+glm::dvec3 after_impact(const PlacedBody& body, double time, const glm::dvec3& x, const glm::dvec3& v) {
+  contact::Flight flight{{x, v, glm::dvec3(0)}, 0, x, v};
+  contact::bounce(&body, contact::normal_at(&body, x, time), v - contact::surface_velocity(&body, x, time), &flight);
+  return flight.v;
 }
 
 bool meets(std::span<const PlacedBody> bodies, const Contacts& rule, const ContactStep& step) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -72,6 +73,9 @@ double contact_tolerance(const PlacedBody& body, const glm::dvec3& x, double eps
 bool held_by_contact(std::span<const PlacedBody> bodies, double dt, double epsilon, const glm::dvec3& x,
                      const glm::dvec3& v, const glm::dvec3& a);
 
+/// The spacing of numbers near 1 in that precision, which contact_tolerance asks for.
+double rounding_unit(Precision precision);
+
 /// The rule of contacts besides the bodies (solver.contact).
 struct Contacts {
   bool at_ends = false;  ///< the report's rule, which looks at the ends of steps alone
@@ -80,11 +84,29 @@ struct Contacts {
   double epsilon = 0;    ///< of the state's precision
   StepShape shape;       ///< of the method's steps
   double lag = 0;        ///< Scheme::lag
+  bool upright = false;  ///< only y changes: the mass on a spring
 };
 /// Of steps of that length, s, which the preset's own dt may contain several of.
 Contacts contacts_of(const Preset& preset, double dt, double epsilon);
 /// Whether bodies act within steps, for which velocities before the step are kept.
 bool meets_within_steps(const Preset& preset);
+
+/// An impact at the end of part of a step.
+struct Impact {
+  int body;
+  double time;  ///< s after the step began
+};
+/// The first impact of a particle that goes from one place and velocity to others in dt, freely, if it bounces there
+/// rather than rests; `met`: whether it meets a body at all. The path between is taken to be a parabola.
+std::optional<Impact> first_impact(std::span<const PlacedBody> bodies, double dt, double epsilon,
+                                   const glm::dvec3& old_x, const glm::dvec3& old_v, const glm::dvec3& x, bool& met);
+/// How far a particle is from a body at that time after the step began, m, and how fast it comes nearer, m/s.
+struct Approach {
+  double gap, rate;
+};
+Approach approach(const PlacedBody& body, double time, const glm::dvec3& x, const glm::dvec3& v);
+/// The velocity after an impact there and then.
+glm::dvec3 after_impact(const PlacedBody& body, double time, const glm::dvec3& x, const glm::dvec3& v);
 
 /// Whether the step meets a body.
 bool meets(std::span<const PlacedBody> bodies, const Contacts& rule, const ContactStep& step);

@@ -97,8 +97,9 @@ const auto rows = std::to_array<PresetRow>({
      "Implicit methods: largest number of Newton steps in a solve; 1 makes a single linear solve. "
      "projective_dynamics, vbd, xpbd: passes per step."},
     {"solver", "contact", "", "Time of contact", "Kollisionstidpunkt", "", &Preset::contact, 0, 0, linear, bodies,
-     "2.1.5", "local: particles meet bodies when they do, within the step; step: at its end, the report's rule.", false,
-     Kind::cloth, true},
+     "2.1.5",
+     "local: particles meet bodies when they do, within the step; step: at its end, the report's rule; global: each "
+     "step is split at every impact, which is slow and keeps the method's order."},
 
     {"view", "mode", "", "View", "Vy", "", &Preset::mode, 1, 5, linear, view, "",
      "1 triangles, 2 connections, 3 both, 4 outlines, 5 points."},

@@ -17,10 +17,11 @@ inline constexpr std::array<std::string_view, 7> pin_names{"none",        "top_r
 inline constexpr std::array<std::string_view, 5> shape_names{"sphere", "plane", "box", "capsule", "cylinder"};
 inline constexpr std::array<std::string_view, 3> engine_names{"cpu", "opencl", "plain"};
 inline constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
-/// Values of solver.contact: within the step, or at its end (the report's rule).
-inline constexpr std::array<std::string_view, 2> contact_names{"local", "step"};
+/// Values of solver.contact: within the step, at its end (the report's rule), or in steps that end at each impact.
+inline constexpr std::array<std::string_view, 3> contact_names{"local", "step", "global"};
 /// As people call them.
-inline constexpr std::array<const char*, contact_names.size()> contact_titles{"when met", "at end of step"};
+inline constexpr std::array<const char*, contact_names.size()> contact_titles{"when met", "at end of step",
+                                                                              "split step"};
 constexpr std::string_view name_of(Kind v) {
   return kind_names[std::size_t(v)];
 }

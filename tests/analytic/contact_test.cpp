@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::contact_test {
@@ -262,6 +265,122 @@ TEST_CASE(
     CHECK(at_end > 0.7);
     CHECK(at_end < 1.4);
   }
+}
+
+/// A mass on an undamped spring that bounces off a plane: between impacts its motion is a sine.
+struct Bouncing {
+  double omega, middle, amplitude, floor, e;
+  /// Height above the middle, and velocity, at time t after it was let go at `amplitude`.
+  glm::dvec2 at(double t) const {
+    double a = amplitude, phase = 0;  // y = a cos(ω t + phase), of the present flight
+    for (;;) {
+      const double meets = (std::acos((floor - middle) / a) - phase) / omega;
+      if (t < meets) return {middle + a * std::cos(omega * t + phase), -a * omega * std::sin(omega * t + phase)};
+      t -= meets;
+      const double y = floor - middle, v = e * a * omega * std::sin(omega * meets + phase);
+      a = std::hypot(y, v / omega), phase = std::atan2(-v / omega, y);
+    }
+  }
+};
+
+Preset bouncing_weight(const std::string& method, const std::string& contact, Bouncing& exact) {
+  Preset preset = test::one_weight(method);
+  preset.precision = Precision::double_, preset.contact = contact;
+  preset.k = 20, preset.m = 0.5, preset.k_d = 0, preset.L = 0.5, preset.offset = 0.3, preset.g = g;
+  preset.v_0 = {0, 0, 0}, preset.tolerance = 1e-9;
+  exact.omega = std::sqrt(preset.k / preset.m), exact.middle = preset.x_0.y - preset.m * g / preset.k;
+  exact.amplitude = preset.x_0.y + preset.offset - exact.middle, exact.e = 0.8;
+  exact.floor = exact.middle - 0.3;
+  Body floor = plane(0, exact.e);
+  floor.y = exact.floor;
+  preset.bodies = {floor};
+  return preset;
+}
+
+TEST_CASE("a mass on a spring that bounces: the method's own order where steps are split, 2 where they are not") {
+  const auto error = [](const std::string& method, const std::string& contact, double dt) {
+    Bouncing exact{};
+    Preset preset = bouncing_weight(method, contact, exact);
+    preset.dt = dt;
+    Simulation simulation(preset);
+    double worst = 0;
+    for (int n = 0; n < 10; ++n) {
+      simulation.advance(int(std::lround(0.31 / dt)));
+      const glm::dvec2 should = exact.at(simulation.time());
+      worst = std::max(worst, std::abs(x_of(simulation).y - should.x));
+    }
+    return worst;
+  };
+  // Where in its step an impact falls decides over the error too: a line through many.
+  const auto order = [&](const std::string& method, const std::string& contact) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (double dt = 0.01; dt > 0.0025; dt *= 0.93) {
+      const double x = std::log(dt), y = std::log(error(method, contact, dt));
+      n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  };
+  for (const auto& [method, own] : std::vector<std::pair<std::string, double>>{{"rk4", 4},
+                                                                               {"velocity_verlet", 2},
+                                                                               {"verlet", 2},
+                                                                               {"rkn4", 4},
+                                                                               {"force_gradient4", 4},
+                                                                               {"implicit_midpoint", 2}}) {
+    CAPTURE(method);
+    const double measured = order(method, "global");
+    CHECK(measured > own - 0.3);
+    CHECK(measured < own + 0.3);
+    if (own > 2) {
+      CHECK(order(method, "local") > 1.9);
+      CHECK(order(method, "step") < 1.7);
+      CHECK(error(method, "global", 0.0025) < 1e-3 * error(method, "local", 0.0025));
+    }
+  }
+  CHECK(error("dopri5", "global", 0.01) < 2e-8);
+}
+
+TEST_CASE("a mass on a spring comes to rest on what stands in its way") {
+  for (const Scheme& method : schemes())
+    for (const std::string_view contact : contact_names) {
+      CAPTURE(method.name);
+      CAPTURE(contact);
+      Bouncing exact{};
+      Preset preset = bouncing_weight(std::string(method.name), std::string(contact), exact);
+      preset.bodies[0].restitution = 0.3, preset.bodies[0].y = exact.middle + 0.05;
+      preset.dt = 1e-3;
+      Simulation simulation(preset);
+      simulation.advance(3000);
+      CHECK(std::abs(x_of(simulation).y - preset.bodies[0].y) < 1e-5);
+      CHECK(simulation.particle(0, 0).on_body);
+    }
+}
+
+TEST_CASE("split steps: a cloth comes down as with local contact, and energy is accounted for") {
+  Preset preset = test::quiet_cloth(6, 6);
+  preset.precision = Precision::double_, preset.tilt_deg = 20, preset.pins.mode = Pins::Mode::none, preset.k_d = 0;
+  preset.g = g, preset.dt = 5e-4;
+  preset.bodies = {plane(0.3, 0.5), ball({0, 0.1, 0.1}, 0.1, 0.2, 0.3)};
+  preset.x_0 = {0, 0.35, 0};
+  const auto after = [&](const char* contact, double dt, int steps) {
+    Preset own = preset;
+    own.contact = contact, own.dt = dt;
+    auto simulation = std::make_unique<Simulation>(own);
+    simulation->enable_ledger(true);
+    simulation->advance(steps);
+    return simulation;
+  };
+  const auto fine = after("local", 2.5e-5, 16000), split = after("global", 5e-4, 800),
+             local = after("local", 5e-4, 800);
+  CHECK(split->time() == doctest::Approx(0.4));
+  double of_split = 0, of_local = 0;
+  for (std::size_t p = 0; p < 36; ++p) {
+    of_split = std::max(of_split, glm::distance(test::position(split->read(), p), test::position(fine->read(), p)));
+    of_local = std::max(of_local, glm::distance(test::position(local->read(), p), test::position(fine->read(), p)));
+  }
+  MESSAGE("split ", of_split, " local ", of_local);
+  CHECK(of_split < 2e-3);
+  CHECK(std::abs(split->ledger()->share()) < 1e-3);
+  CHECK(split->ledger()->works.contact < 0);
 }
 
 }  // namespace tyglab::contact_test

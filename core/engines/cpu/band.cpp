@@ -308,7 +308,7 @@ double Band<R, Present>::max_displacement() const {
 /// The bodies that act in a step of the batch; null: none do.
 template <class R, unsigned Present>
 const std::vector<PlacedBody>* Band<R, Present>::bodies_in(int step) const {
-  if (!has(part::bodies) || cloth_.preset.bodies.empty() || cloth_.preset.kind != Kind::cloth) return nullptr;
+  if (!has(part::bodies) || cloth_.preset.bodies.empty()) return nullptr;
   const std::size_t n = cloth_.bodies_move ? std::size_t(step) : 0;
   assert(n < cloth_.bodies.size());
   return &cloth_.bodies[n];

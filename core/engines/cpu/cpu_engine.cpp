@@ -517,7 +517,7 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
           {"rigidity", cloth && swept(linear)},
           {"damping", swept(damping)},
           {"wind", cloth && swept(wind)},
-          {"bodies", has(part::bodies) && cloth && !p.bodies.empty()},
+          {"bodies", has(part::bodies) && !p.bodies.empty()},
           {"tearing", has(part::tearing) && cloth && p.F_max > 0 && p.k_s > 0},
           {"pins", has(part::pins) && !pinned_.empty()},
           {"hand", has(part::hand) && cloth_.held.particle >= 0}};

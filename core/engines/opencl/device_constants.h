@@ -25,7 +25,7 @@ struct DeviceConstants {
 template <class B>
 struct DeviceContactRule {
   B dt, epsilon, g, share, kick, lag;
-  std::int32_t at_ends, unused;
+  std::int32_t at_ends, upright;
 };
 
 /// Contact of bodies.cl.

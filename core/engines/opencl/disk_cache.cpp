@@ -68,12 +68,12 @@ namespace tyglab::opencl {
 std::string program_features(const Preset& preset, bool contacts) {
   std::string text;
   if (force::damping.on(preset)) text += " -D DAMPING";
+  if (meets_bodies(preset)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
   if (preset.kind == Kind::one_weight) return text + " -D ONE_WEIGHT";
   const bool linear = LinearSprings<float>::exist(preset);
   if (force::bend.on(preset) || linear) text += " -D BENDING";
   if (linear) text += " -D LINEAR";
   if (force::wind.on(preset)) text += " -D WIND";
-  if (meets_bodies(preset)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
   return text;
 }
 

@@ -134,8 +134,8 @@ void OpenClEngine<R>::upload_bodies_as(int steps) {
   constexpr double epsilon = std::numeric_limits<R>::epsilon();
   const Contacts rule = contacts_of(preset_, preset_.dt, epsilon);
   const DeviceContactRule<B> head{
-      B(rule.dt),  B(rule.epsilon), B(rule.g), B(rule.shape.position), B(rule.shape.last_kick),
-      B(rule.lag), rule.at_ends,    0};
+      B(rule.dt),  B(rule.epsilon), B(rule.g),   B(rule.shape.position), B(rule.shape.last_kick),
+      B(rule.lag), rule.at_ends,    rule.upright};
   std::vector<BodyAt<B>> list;
   for (int n = 0; n < steps; ++n)
     for (const PlacedBody& body : placed_bodies(preset_.bodies, time_after(n, preset_.dt), preset_.dt, epsilon)) {

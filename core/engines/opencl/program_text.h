@@ -48,7 +48,7 @@ namespace tyglab::opencl {
 
 /// Whether bodies act on what the preset simulates.
 inline bool meets_bodies(const Preset& preset) {
-  return !preset.bodies.empty() && preset.kind == Kind::cloth;
+  return !preset.bodies.empty();
 }
 
 /// Build options, " -D DAMPING" and so on. `contacts`: of steps that note what bodies stop.

@@ -88,7 +88,7 @@ void Cloth::collide(const Vector& x_before, const Vector& v_before, double t) {
   for (std::size_t p = 0; p < x.size(); ++p) {
     ContactStep now{x_before[p], v_before[p] / scale, x[p], v[p] / scale};
     const ContactStep freely = now;
-    if (preset.kind == Kind::cloth && fixed[p] == 0 && meets(placed, rule, now)) {
+    if (fixed[p] == 0 && meets(placed, rule, now)) {
       if (!tyglab::collide(placed, rule, now)) ++left_inside;
       const glm::dvec3 seen_then = rule.at_ends ? now.v * scale : seen()[p] + (now.v - freely.v) * scale;
       x[p] = now.x, v[p] = now.v * scale;

@@ -255,7 +255,7 @@ std::vector<StepFeature> PlainEngine::features() const {
   const bool cloth = p.kind == Kind::cloth;
   std::vector<StepFeature> all;
   for (const Force* force : {&force::bend, &force::damping, &force::wind}) all.push_back({force->name, force->on(p)});
-  all.push_back({"bodies", cloth && !p.bodies.empty()});
+  all.push_back({"bodies", !p.bodies.empty()});
   all.push_back({"tearing", cloth && p.F_max > 0 && p.k_s > 0});
   all.push_back({"pins", !pinned_.empty()});
   all.push_back({"hand", held_.particle >= 0});
