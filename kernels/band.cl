@@ -63,8 +63,8 @@ INLINE vec kept(int masked, maskv on, vec f) { return masked ? where(on, f) : f;
 #endif
 
 /// Force of a stretch spring with its damping, on its owner.
-INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, realv linear, int masked, maskv on) {
-  vec f = times(stretch_factor(k->stretch, minus_half, dot3(x_ij, x_ij)), x_ij);
+INLINE vec stretched(const Constants* k, REAL constant, REAL minus_half, vec x_ij, vec v_ij, realv linear, int masked, maskv on) {
+  vec f = times(stretch_factor(constant, minus_half, dot3(x_ij, x_ij)), x_ij);
 #ifdef DAMPING
   f = plus_scaled(f, k->k_d, v_ij);
 #endif
@@ -99,10 +99,10 @@ INLINE vec force_in_row(const Constants* k, const Row* r, int j, int masked, Car
 #endif
   const maskv on_S = has(masked, m, bit_S), on_SE = has(masked, m, bit_SE), on_SW = has(masked, m + 1, bit_SW);
   const maskv on_E = has(masked, m, bit_E);
-  const vec right = stretched(k, k->straight, to_right, v_right, LINEAR_OF(r, 0, j), masked, on_E);
-  const vec below = stretched(k, k->straight, to_below, v_below, LINEAR_OF(r, 1, j), masked, on_S);
-  const vec slant = stretched(k, k->diagonal, to_slant, v_slant, LINEAR_OF(r, 2, j), masked, on_SE);
-  const vec crossing = stretched(k, k->diagonal, to_cross, v_cross, LINEAR_OF(r, 3, j + 1), masked, on_SW);
+  const vec right = stretched(k, k->weft, k->weft_half, to_right, v_right, LINEAR_OF(r, 0, j), masked, on_E);
+  const vec below = stretched(k, k->warp, k->warp_half, to_below, v_below, LINEAR_OF(r, 1, j), masked, on_S);
+  const vec slant = stretched(k, k->shear, k->shear_half, to_slant, v_slant, LINEAR_OF(r, 2, j), masked, on_SE);
+  const vec crossing = stretched(k, k->shear, k->shear_half, to_cross, v_cross, LINEAR_OF(r, 3, j + 1), masked, on_SW);
   vec on_A = plus(plus(right, below), slant), on_B = minus(crossing, right);
   vec from_C = plus(below, crossing), from_E = slant;
 #ifdef WIND

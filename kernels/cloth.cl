@@ -64,7 +64,7 @@ enum {
 
 /// As DeviceConstants in device_constants.h.
 typedef struct {
-  REAL stretch, straight, diagonal;  // the last two: -stretch times half of the rest length
+  REAL weft, weft_half, warp, warp_half, shear, shear_half;  // …_half: minus the constant times half of the rest length
   REAL bend, bending, shortest2;  // shortest2: square of the length under which a spring has no direction
   REAL k_d;                      // divided by dt where velocities are kept as displacements
   REAL weight;                   // m g

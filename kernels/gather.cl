@@ -27,7 +27,9 @@ INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v,
                         maskv on) {
   const int to = di * 3 * b->stride + dj;
   const vec x_ij = minus(load(b->x + to, b->stride), x);
-  realv factor = stretch_factor(k->stretch, di != 0 && dj != 0 ? k->diagonal : k->straight, dot3(x_ij, x_ij));
+  const int warp = dj == 0, shear = di != 0 && dj != 0;
+  realv factor = stretch_factor(shear ? k->shear : warp ? k->warp : k->weft,
+                                shear ? k->shear_half : warp ? k->warp_half : k->weft_half, dot3(x_ij, x_ij));
   if (masked) factor = on ? factor : ZERO;
   factor += LINEAR_AT(b, number, di, dj);
   f = plus_times(f, factor, x_ij);

@@ -41,6 +41,63 @@ const auto rows = std::to_array<PresetRow>({
     {"forces", "k_s", "k_s", "Spring constant, stretching", "Fjäderkonstant töjning", "N/m", &Preset::k_s, 0, 1e9,
      logarithmic, force, "2.5", "Stiffness against stretching. A higher value requires a smaller time step.", false,
      Kind::cloth, true},
+    {"forces",
+     "k_warp",
+     "k_warp",
+     "Spring constant of the warp",
+     "Fjäderkonstant varp",
+     "N/m",
+     &Preset::k_warp,
+     0,
+     1e9,
+     logarithmic,
+     force,
+     "",
+     "Stiffness of the threads down the columns; as k_s unless it is set.",
+     false,
+     Kind::cloth,
+     true,
+     {},
+     1,
+     "k_s"},
+    {"forces",
+     "k_weft",
+     "k_weft",
+     "Spring constant of the weft",
+     "Fjäderkonstant inslag",
+     "N/m",
+     &Preset::k_weft,
+     0,
+     1e9,
+     logarithmic,
+     force,
+     "",
+     "Stiffness of the threads along the rows; as k_s unless it is set.",
+     false,
+     Kind::cloth,
+     true,
+     {},
+     1,
+     "k_s"},
+    {"forces",
+     "k_shear",
+     "k_shear",
+     "Spring constant of the diagonals",
+     "Fjäderkonstant skjuvning",
+     "N/m",
+     &Preset::k_shear,
+     0,
+     1e9,
+     logarithmic,
+     force,
+     "",
+     "Stiffness against shear, when rows and columns no longer meet at right angles; as k_s unless it is set.",
+     false,
+     Kind::cloth,
+     true,
+     {},
+     1,
+     "k_s"},
     {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
      logarithmic, force, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
     {"forces",
@@ -171,7 +228,9 @@ std::string default_text(const Row<T>& row) {
           return "[" + shortest_number(value.x) + ", " + shortest_number(value.y) + ", " + shortest_number(value.z) +
                  "]";
         else
-          return row.zero_is_off && value == 0 ? "0 (never)" : shortest_number(double(value));
+          return is_absent(row, double(value))        ? "absent: " + std::string(row.otherwise)
+                 : row.zero_is_off && value == 0 ? "0 (never)"
+                                                 : shortest_number(double(value));
       },
       row.field);
 }
@@ -195,7 +254,7 @@ std::span<const PresetRow> notation() {
 std::span<const Heading> headings() {
   static const std::array<Heading, 6> list{{
       {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
-      {"Springs", "forces", {"k_s", "k_b", "B", "twist", "k_d", "k"}},
+      {"Springs", "forces", {"k_s", "k_warp", "k_weft", "k_shear", "k_b", "B", "twist", "k_d", "k"}},
       {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
       {"Tearing", "tearing", {"F_max", "F_release"}},
       {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
@@ -249,6 +308,11 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   return meant ? "; did you mean " + std::string(*meant) + "?" : otherwise;
 }
 
+bool is_absent(const PresetRow& row, const Preset& preset) {
+  const auto* number = std::get_if<double Preset::*>(&row.field);
+  return number != nullptr && is_absent(row, preset.**number);
+}
+
 double usual_value(const PresetRow& row) {
   const auto* field = std::get_if<double Preset::*>(&row.field);
   const double value = field == nullptr ? 0 : Preset{}.**field;
@@ -273,7 +337,7 @@ Preset nearest_allowed(Preset preset) {
           auto& value = preset.*field;
           using Value = std::decay_t<decltype(value)>;
           if constexpr (!std::is_same_v<Value, std::string>)
-            value = Value(glm::clamp(value, Value(row.min), Value(row.max)));
+            if (!is_absent(row, preset)) value = Value(glm::clamp(value, Value(row.min), Value(row.max)));
         },
         row.field);
   return preset;

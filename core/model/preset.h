@@ -38,6 +38,9 @@ struct Body {
   bool operator==(const Body&) const = default;
 };
 
+/// In place of a constant that a preset leaves out, so that another one's value counts (Row::otherwise).
+inline constexpr double absent = -1;
+
 struct Preset {
   Kind kind = Kind::cloth;
   std::string name = "Untitled";
@@ -57,6 +60,9 @@ struct Preset {
 
   // forces
   double k_s = 50;
+  double k_warp = absent;   ///< of springs down the columns, N/m; absent: k_s
+  double k_weft = absent;   ///< of springs along the rows
+  double k_shear = absent;  ///< of diagonals
   double k_b = 5;
   double B = 0;      ///< N·m
   double twist = 1;  ///< 0 to 1

@@ -80,7 +80,10 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   t.L = cloth_.preset.L;
   const bool weight = cloth_.preset.kind == Kind::one_weight;
   const SpringConstants springs = spring_constants(cloth_.preset);
-  if (!s.external) t.stretch = weight ? cloth_.preset.k : springs.stretch, t.bend = springs.bend, t.k_d = s.k_d;
+  if (!s.external) {
+    t.weft = weight ? cloth_.preset.k : springs.weft, t.warp = springs.warp, t.shear = springs.shear;
+    t.bend = springs.bend, t.k_d = s.k_d;
+  }
   features_ = s.external ? cloth_.features & unsigned(wind) : cloth_.features;
   t.weight = cloth_.preset.m * cloth_.preset.g;
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
@@ -130,7 +133,7 @@ void Band<R, Present>::forces_on_pair(PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
-    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.stretch, v, t.k_d) - t.weight);
+    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.weft, v, t.k_d) - t.weight);
     return;
   }
   t.update = update;

@@ -124,7 +124,7 @@ void CpuEngine<R, Present>::resolve() {
   cloth_.features = features_of(cloth_.preset);
   cloth_.contacts = contacts_of(cloth_.preset, cloth_.dt, std::numeric_limits<R>::epsilon());
   const Preset& p = cloth_.preset;
-  guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
+  guard_.set_rules({.tearing = has(part::tearing) && tears_springs(p),
                     .F_release = p.F_release,
                     .costly_steps = stops_within_steps()});
   guard_.set_scene(p, cloth_.lattice, cloth_.held);
@@ -503,7 +503,7 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
           {"damping", swept(damping)},
           {"wind", cloth && swept(wind)},
           {"bodies", has(part::bodies) && cloth && !p.bodies.empty()},
-          {"tearing", has(part::tearing) && cloth && p.F_max > 0 && p.k_s > 0},
+          {"tearing", has(part::tearing) && tears_springs(p)},
           {"pins", has(part::pins) && !pinned_.empty()},
           {"hand", has(part::hand) && cloth_.held.particle >= 0}};
 }

@@ -53,8 +53,9 @@ class PairSweep {
         x_(task.x),
         v_(task.v),
         f_{task.f[0], task.f[1], task.f[2], task.f[3]},
-        straight_(Spring<L>::of(task.stretch, task.L * directions[0].rest, &L::all)),
-        diagonal_(Spring<L>::of(task.stretch, task.L * directions[2].rest, &L::all)),
+        weft_(Spring<L>::of(task.weft, task.L * directions[0].rest, &L::all)),
+        warp_(Spring<L>::of(task.warp, task.L * directions[1].rest, &L::all)),
+        shear_(Spring<L>::of(task.shear, task.L * directions[2].rest, &L::all)),
         bending_(Spring<L>::of(task.bend, task.L * directions[4].rest, &L::all)),
         k_d_(L::all(task.k_d)),
         weight_(L::all(task.weight)),
@@ -139,11 +140,11 @@ class PairSweep {
     Factors s;
     const R* const below = x + pitch_;
     const V A = load(x), B = load(x + 1);
-    s.right = stretch_factor(straight_, squared(B - A, x_ij[right]));
+    s.right = stretch_factor(weft_, squared(B - A, x_ij[right]));
     const V C = load(below);
-    s.crossing = stretch_factor(diagonal_, squared(C - B, x_ij[crossing]));
-    s.down = stretch_factor(straight_, squared(C - A, x_ij[down]));
-    s.diagonal = stretch_factor(diagonal_, squared(load(below + 1) - A, x_ij[diagonal]));
+    s.crossing = stretch_factor(shear_, squared(C - B, x_ij[crossing]));
+    s.down = stretch_factor(warp_, squared(C - A, x_ij[down]));
+    s.diagonal = stretch_factor(shear_, squared(load(below + 1) - A, x_ij[diagonal]));
     if constexpr ((F & bending) != 0) {
       s.two_right = bend_factor(bending_, squared(load(x + 2) - A, x_ij[two_right]));
       s.two_down = bend_factor(bending_, squared(load(below + pitch_) - A, x_ij[two_down]));
@@ -284,7 +285,7 @@ class PairSweep {
   const std::ptrdiff_t stride_, pitch_;
   const int columns_;
   R *const x_, *const v_, *const f_[4];
-  const Spring<L> straight_, diagonal_, bending_;
+  const Spring<L> weft_, warp_, shear_, bending_;
   const L k_d_, weight_, v_to_x_, force_to_x_, force_to_v_;
   const bool keeps_force_;
   const L dt_v_;

@@ -34,7 +34,7 @@ struct PairTask {
   const std::uint8_t* whole;     ///< tear masks of row i, the next two behind it, or nullptr while untorn
   const std::uint8_t* fixed[2];  ///< non-zero at pinned and held particles; nullptr: none in that row. f[0], f[1] then
                                  ///< keep the force on them
-  double L, stretch, bend, k_d;  ///< k_d divided by dt where v holds displacements
+  double L, weft, warp, shear, bend, k_d;  ///< k_d divided by dt where v holds displacements
   const R* linear[2];            ///< of the two rows, as in LinearSprings; used with the feature of that name
   double weight;                 ///< m·g, N
   double W[3];

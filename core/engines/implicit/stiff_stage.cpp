@@ -1,5 +1,7 @@
 #include "core/engines/implicit/stiff_stage.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -73,8 +75,13 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
     solver.x().row(i, c)[j] = fixed ? end : double(task.x[n]);
   });
   if (!begun) return {};
+  // Every spring needs a tension, so one of constant 0 gets a hair of one.
+  constexpr double least = 1e-9;
+  std::array<double, stretch_directions> stretch;
+  for (std::size_t d = 0; d < stretch.size(); ++d)
+    stretch[d] = std::max(springs.of(directions[d]), least * springs.largest()) * scale;
   typename InteriorPoint<S>::Task inner{
-      .constants = {springs.stretch * scale, springs.bend * scale, p.k_d * h / p.m, p.L},
+      .constants = {stretch, springs.bend * scale, p.k_d * h / p.m, p.L},
       .gravity = h * h * p.g,
       .weight = weight_scale(p.g, h),
       .tolerance = task.tolerance,

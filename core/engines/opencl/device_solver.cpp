@@ -144,8 +144,10 @@ int DeviceSolver<R>::set_system(const Kernel& kernel) const {
   const Preset& p = *task_.preset;
   const double h = task_.h, L = p.L;
   constexpr double shortest = 1e-9;  // as in spring-inl.h
-  const auto [stretch, bend] = spring_constants(p);
-  const DeviceLinear<R> linear{R(h * h * stretch / p.m),
+  const auto [weft, warp, shear, bend] = spring_constants(p);
+  const DeviceLinear<R> linear{R(h * h * weft / p.m),
+                               R(h * h * warp / p.m),
+                               R(h * h * shear / p.m),
                                R(h * h * bend / p.m),
                                R(h * p.k_d / p.m),
                                R(own_stiffness(p, h)),

@@ -85,9 +85,10 @@ template <class R>
 DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& sweep) const {
   const double scale = scheme_->keeps_displacement ? p.dt : 1;
   Constants k;
-  const auto [stretch, bend] = spring_constants(p);
-  k.stretch = R(stretch), k.straight = R(-stretch * directions[0].rest * p.L / 2),
-  k.diagonal = R(-stretch * directions[2].rest * p.L / 2);
+  const auto [weft, warp, shear, bend] = spring_constants(p);
+  k.weft = R(weft), k.weft_half = R(-weft * directions[0].rest * p.L / 2);
+  k.warp = R(warp), k.warp_half = R(-warp * directions[1].rest * p.L / 2);
+  k.shear = R(shear), k.shear_half = R(-shear * directions[2].rest * p.L / 2);
   k.bend = R(bend), k.bending = R(-bend * directions[4].rest * p.L / 2);
   constexpr double shortest = 1e-9;  // as in spring-inl.h
   k.shortest2 = R(std::pow(shortest * directions[4].rest * p.L, 2));
