@@ -50,7 +50,7 @@ INLINE vec with_bending(vec f, const Constants* k, const Block* b, vec x, int nu
 #endif
 
 #ifdef WIND
-/// Adds the wind on the triangles of one of the quads that the particle is a corner of: the quad's upper left particle
+/// Adds wind and air on the triangles of one of the quads that the particle is a corner of: the quad's upper left particle
 /// A stands di rows below and dj columns to the right of it (0 or -1). Even quads A B C E are split from A to E, odd
 /// ones from C to B (figure 2.7); the first triangle always has A and C, the second B and E.
 INLINE vec with_quad(vec f, const Constants* k, const Block* b, int di, int dj, int masked) {
@@ -58,8 +58,16 @@ INLINE vec with_quad(vec f, const Constants* k, const Block* b, int di, int dj, 
   const vec A = load(at, b->stride), B = load(at + 1, b->stride), C = load(at + 3 * b->stride, b->stride),
             E = load(at + 3 * b->stride + 1, b->stride);
   const maskv odd = odd_quads(b->row + di + b->column + dj);
-  vec first = wind_on_corner(k, cross3(minus(C, A), pick(odd, minus(B, A), minus(E, C))));
-  vec second = wind_on_corner(k, cross3(minus(E, B), pick(odd, minus(E, C), minus(B, A))));
+  const vec first_n = cross3(minus(C, A), pick(odd, minus(B, A), minus(E, C)));
+  const vec second_n = cross3(minus(E, B), pick(odd, minus(E, C), minus(B, A)));
+  vec first = wind_on_corner(k, first_n), second = wind_on_corner(k, second_n);
+#ifdef AIR
+  global const REAL* speed = b->v + di * 3 * b->stride + dj;
+  const vec vA = load(speed, b->stride), vB = load(speed + 1, b->stride), vC = load(speed + 3 * b->stride, b->stride),
+            vE = load(speed + 3 * b->stride + 1, b->stride);
+  first = plus(first, air_on_corner(k, first_n, vA, vC, pick(odd, vB, vE)));
+  second = plus(second, air_on_corner(k, second_n, vB, vE, pick(odd, vC, vA)));
+#endif
   // A stands in both triangles of an even quad and in the first one of an odd quad, and so on.
   const int first_always = dj == 0, both_if_odd = di != dj;
   const maskv both = both_if_odd ? odd : ~odd;

@@ -51,7 +51,8 @@ std::string in_words(const PresetField& field, const Preset& before, const Prese
   const auto from = value_text(before, field), to = value_text(after, field);
   if (!from) return text;
   text += " " + *from + " → " + *to;
-  if (field.row != nullptr && !field.row->unit.empty() && !is_absent(*field.row, after)) text += " " + std::string(field.row->unit);
+  if (field.row != nullptr && !field.row->unit.empty() && !is_absent(*field.row, after))
+    text += " " + std::string(field.row->unit);
   return text;
 }
 

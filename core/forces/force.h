@@ -91,9 +91,9 @@ struct Force {
 };
 
 namespace force {
-extern const Force stretch, bend, rigidity, damping, gravity, wind;
+extern const Force stretch, bend, rigidity, damping, gravity, wind, air;
 /// In the order of the report, and what it does not have beside what is like it.
-inline constexpr std::array all{&stretch, &bend, &rigidity, &damping, &gravity, &wind};
+inline constexpr std::array all{&stretch, &bend, &rigidity, &damping, &gravity, &wind, &air};
 }  // namespace force
 
 /// Where a force stands in the table.
@@ -188,7 +188,9 @@ struct SpringConstants {
   double least() const { return std::min({weft, warp, shear}); }
   /// Upper bound of Σ k |x_i - x_j|² over all stretch springs, divided by Σ |x|²: 4 sin² a and 4 sin² b of the straight
   /// ones and 4 (1 - cos 2a cos 2b) of the diagonals are largest together where each cosine is 1 or -1.
-  double largest_stretch_eigenvalue() const { return std::max(4 * std::max(weft, warp) + 8 * shear, 4 * (weft + warp)); }
+  double largest_stretch_eigenvalue() const {
+    return std::max(4 * std::max(weft, warp) + 8 * shear, 4 * (weft + warp));
+  }
   bool stretches_alike() const { return weft == warp && warp == shear; }
   friend SpringConstants operator*(double factor, const SpringConstants& k) {
     return {factor * k.weft, factor * k.warp, factor * k.shear, factor * k.bend};
@@ -196,7 +198,7 @@ struct SpringConstants {
   bool operator==(const SpringConstants&) const = default;
 };
 inline SpringConstants spring_constants(const Preset& preset) {
-  const auto own = [&](double k) { return k == absent ? preset.k_s : k; };
+  const auto own = [&](double k) { return k == left_out ? preset.k_s : k; };
   return {own(preset.k_weft), own(preset.k_warp), own(preset.k_shear), preset.k_b};
 }
 inline double spring_constant(const Preset& preset, const Direction& to) {
@@ -210,5 +212,10 @@ inline bool tears_springs(const Preset& preset) {
 
 /// The stretch springs of the lattice, one stencil a direction, which damping shares.
 std::span<const Stencil> stretch_stencils();
+/// The two triangles of a quad, split one way where i + j is even and the other way where it is odd (figure 2.7).
+std::span<const Stencil> triangle_stencils();
+
+/// The most that air resists a corner of a triangle with in a step of dt, N s/m (air.cpp).
+double most_air_damping(const Preset& preset, double dt);
 
 }  // namespace tyglab

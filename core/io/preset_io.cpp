@@ -106,7 +106,7 @@ class Reader {
   template <class T>
   bool take_otherwise(const JsonNode& node, const std::string& path, const Row<T>& row, T& object) const {
     if (node.type == Type::text && node.text == row.otherwise) {
-      object.*std::get<double T::*>(row.field) = absent;
+      object.*std::get<double T::*>(row.field) = left_out;
       return true;
     }
     if (!node.is_number()) wrong_type(node, path, "a number, or " + std::string(row.otherwise));

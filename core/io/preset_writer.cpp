@@ -60,7 +60,8 @@ std::string bodies_text(const std::vector<Body>& bodies) {
 
 /// Constants that the first release did not have. A hash leaves them out where they have their defaults, so that a
 /// scene without them keeps its own.
-constexpr std::array<std::string_view, 6> later{"B", "twist", "contact", "k_warp", "k_weft", "k_shear"};
+constexpr std::array<std::string_view, 10> later{"B",       "twist",       "contact", "k_warp", "k_weft",
+                                                 "k_shear", "air_density", "u",       "C_N",    "C_T"};
 bool is_left_out(const PresetRow& row, const Preset& p) {
   return std::find(later.begin(), later.end(), row.key) != later.end() &&
          field_text(row, p) == field_text(row, Preset{});

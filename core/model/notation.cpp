@@ -129,9 +129,35 @@ const auto rows = std::to_array<PresetRow>({
      force, "2.2", "Acts along -y: F_g = m·g."},
     {"forces", "W", "W", "Wind", "Vind", "N", &Preset::W, -1e3, 1e3, linear, force, "2.16",
      "Force on each triangle along its normal: N (N·W).", false, Kind::cloth, true},
-    {"forces", "gust", "W_gust", "Strength of gusts, as a fraction of W", "Vindbyarnas styrka", "", &Preset::gust, 0,
-     10, linear, force, "", "The wind rises and falls by up to this fraction of W; 0 gives the report's steady wind.",
-     false, Kind::cloth, true},
+    {"forces",
+     "air_density",
+     "ρ_air",
+     "Density of the air",
+     "Luftens densitet",
+     "kg/m³",
+     &Preset::air_density,
+     0,
+     1e4,
+     logarithmic,
+     force,
+     "",
+     "Air resists motion through it and carries the cloth along with u; 1.2 at sea level, 0 leaves it out.",
+     true,
+     Kind::cloth,
+     true,
+     {},
+     1.2},
+    {"forces", "u", "u", "Velocity of the air", "Luftens hastighet", "m/s", &Preset::u, -1e3, 1e3, linear, force, "",
+     "Wind as a velocity: acts where ρ_air is above 0, by area and by the cloth's own velocity.", false, Kind::cloth,
+     true},
+    {"forces", "C_N", "C_N", "Air's coefficient across the cloth", "Luftmotstånd tvärs tyget", "", &Preset::C_N, 0, 100,
+     linear, force, "", "Force on a triangle along its normal: ½ρA·C_N|u·N|(u·N), u relative to it.", false,
+     Kind::cloth, true},
+    {"forces", "C_T", "C_T", "Air's coefficient along the cloth", "Luftmotstånd längs tyget", "", &Preset::C_T, 0, 100,
+     linear, force, "", "Force on a triangle in its plane: ½ρA·C_T|u|u_t, u relative to it.", false, Kind::cloth, true},
+    {"forces", "gust", "W_gust", "Strength of gusts, as a fraction of the wind", "Vindbyarnas styrka", "",
+     &Preset::gust, 0, 10, linear, force, "",
+     "W and u rise and fall by up to this fraction; 0 gives the report's steady wind.", false, Kind::cloth, true},
     {"forces", "gust_period", "T_gust", "Period of the gusts", "Vindbyarnas period", "s", &Preset::gust_period, 0.01,
      1e3, logarithmic, force, "", "Time from one gust to the next; two shorter waves are superimposed.", false,
      Kind::cloth, true},
@@ -185,9 +211,11 @@ const auto variable_rows = std::to_array<Variable>({
     {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
     {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downward."},
     {"F_wind", "F_wind", "Wind force", "Vindkraft", "N", "2.16", "Sum over the triangles at the particle."},
+    {"F_air", "F_air", "Force of the air", "Luftens kraft", "N", "",
+     "Drag and lift, a third of those on each triangle at the particle."},
     {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2",
      "Forces between particles: F_s + F_b + F_B + F_d."},
-    {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind and the hand."},
+    {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind, air and the hand."},
     {"x", "x", "Position", "Position", "m", "2.4", "Position of the particle."},
     {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Velocity of the particle, at the time of its position."},
     {"a", "x''", "Acceleration", "Acceleration", "m/s²", "2.1", "F/m; 0 for a pinned particle."},
@@ -228,7 +256,7 @@ std::string default_text(const Row<T>& row) {
           return "[" + shortest_number(value.x) + ", " + shortest_number(value.y) + ", " + shortest_number(value.z) +
                  "]";
         else
-          return is_absent(row, double(value))        ? "absent: " + std::string(row.otherwise)
+          return is_absent(row, double(value))   ? "absent: " + std::string(row.otherwise)
                  : row.zero_is_off && value == 0 ? "0 (never)"
                                                  : shortest_number(double(value));
       },
@@ -252,10 +280,11 @@ std::span<const PresetRow> notation() {
   return rows;
 }
 std::span<const Heading> headings() {
-  static const std::array<Heading, 6> list{{
+  static const std::array<Heading, 7> list{{
       {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
-      {"Springs", "forces", {"k_s", "k_warp", "k_weft", "k_shear", "k_b", "B", "twist", "k_d", "k"}},
-      {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
+      {"Springs", "forces", {"k_s", "k_b", "B", "twist", "k_d", "k"}},
+      {"Fabric", "", {"k_warp", "k_weft", "k_shear"}},
+      {"Outer forces", "", {"g", "W", "air_density", "u", "C_N", "C_T", "gust", "gust_period"}},
       {"Tearing", "tearing", {"F_max", "F_release"}},
       {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
       {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},

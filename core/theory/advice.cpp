@@ -261,7 +261,9 @@ bool springs_too_weak(const Preset& p) {
   constexpr double times = 1000;
   if (p.kind == Kind::one_weight) return p.m * std::abs(p.g) > p.k * times * std::max(p.L, std::abs(p.offset));
   const double particles = double(p.rows) * p.columns, per_column = 3;  // springs of a seam: across, and two diagonals
-  const double pull = particles * (p.m * std::abs(p.g) + 2 * glm::length(p.W) * (1 + p.gust));
+  const double u = glm::length(p.u) * (1 + p.gust);
+  const double air = force::air.on(p) ? p.air_density / 2 * p.L * p.L * (p.C_N + p.C_T) * u * u : 0;
+  const double pull = particles * (p.m * std::abs(p.g) + 2 * glm::length(p.W) * (1 + p.gust) + air);
   return pull > spring_constants(p).largest() * times * p.L * per_column * std::min(p.rows, p.columns);
 }
 

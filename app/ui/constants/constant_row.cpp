@@ -71,7 +71,7 @@ void classify(const FieldOf<T>& field, Line& line) {
 }
 
 bool is_absent(const Line& line, double value) {
-  return !line.otherwise.empty() && value == absent;
+  return !line.otherwise.empty() && value == left_out;
 }
 /// What the constant comes to.
 double effective(const Line& line, double value) {
@@ -306,8 +306,7 @@ void draw_line(Ui& ui, const Line& line) {
     const bool dragging = ui.slider.dragged == gesture;
     const double shown = dragging ? ui.slider.value : line.value[0];
     take(ui, line, 0,
-         value_cell(ui, "value", value, value_text(line, shown), columns.value, columns.height, line.symbol,
-                    line.unit),
+         value_cell(ui, "value", value, value_text(line, shown), columns.value, columns.height, line.symbol, line.unit),
          0);
     if (ui.controls) report_control(ui, line.key + ".value");
   }

@@ -32,10 +32,10 @@ void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears, co
       for (int d = 0; d < int(directions.size()); ++d)
         if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
           whole_[std::size_t((i + ghost_rows) * pitch + d * width + j)] =
-              !weights.differ() ? R(1)
-              : weights.linear == 0
-                  ? R(weights.springs.of(directions[std::size_t(d)]))
-                  : R(weights.springs.of(directions[std::size_t(d)]) + weights.linear * double(cloth.springs.at(d, i, j)));
+              !weights.differ()     ? R(1)
+              : weights.linear == 0 ? R(weights.springs.of(directions[std::size_t(d)]))
+                                    : R(weights.springs.of(directions[std::size_t(d)]) +
+                                        weights.linear * double(cloth.springs.at(d, i, j)));
     }
 }
 

@@ -23,7 +23,8 @@ double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
   assert(cloth_.preset.F_max > 0);
   double slack = std::numeric_limits<double>::infinity();
   for (int d = 0; d < stretch_directions; ++d) {
-    const double longest = directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / spring_constant(cloth_.preset, directions[d]);
+    const double longest =
+        directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / spring_constant(cloth_.preset, directions[d]);
     for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i)
       slack = std::min(slack, longest * (1 - rounding<R>)-std::sqrt(tear_row(tears, d, i)));
   }
@@ -144,8 +145,8 @@ void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
   const Preset& p = cloth_.preset;
   assert(solves_damping(*scheme_));
   constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
-  constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m * SpringConstants{1, 1, 1, 0}}, tolerance,
-                    springs_changed(tears), ConstantSolver<R>::Beyond::factorizes);
+  constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m * SpringConstants{1, 1, 1, 0}},
+                    tolerance, springs_changed(tears), ConstantSolver<R>::Beyond::factorizes);
   accept_springs(tears);
 }
 

@@ -344,7 +344,8 @@ template <class R>
 Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   task_ = &task, counts_ = &counts;
   assert(task.tears != nullptr && task.tolerance > 0);
-  assert(task.constants.L > 0 && *std::min_element(task.constants.stretch.begin(), task.constants.stretch.end()) > 0 && task.constants.bend >= 0);
+  assert(task.constants.L > 0 && *std::min_element(task.constants.stretch.begin(), task.constants.stretch.end()) > 0 &&
+         task.constants.bend >= 0);
   begin();
   best_balance_ = {false, std::numeric_limits<double>::infinity()};
   const auto part_of = [](double most) { return std::min(1.0, to_border / most); };

@@ -39,8 +39,9 @@ struct StiffTask {
   std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
   double h;                             ///< s
   const R *c_x, *c_v;
-  const R* x;  ///< positions from which to begin
-  R* v;        ///< receives the solution, or the best that was found; fixed particles' is left
+  const R* air;  ///< accelerations beside gravity and the wind, or null
+  const R* x;    ///< positions from which to begin
+  R* v;          ///< receives the solution, or the best that was found; fixed particles' is left
   std::ptrdiff_t stride;
   std::function<bool()> stops;
   std::function<bool(double best)> out_of_time;  ///< as InteriorPoint::Task has it
@@ -52,7 +53,9 @@ struct StiffTask {
 class StiffStage {
  public:
   /// Whether a stage can be solved at all in this way.
-  static bool possible(const Preset& preset) { return preset.kind == Kind::cloth && spring_constants(preset).largest() > 0; }
+  static bool possible(const Preset& preset) {
+    return preset.kind == Kind::cloth && spring_constants(preset).largest() > 0;
+  }
   template <class R>
   Balance solve(const StiffTask<R>& task, SolveCounts& counts);
   std::size_t bytes() const;

@@ -15,6 +15,7 @@ struct DeviceConstants {
   R k_d = 0;
   R weight = 0;
   R wind[3] = {};
+  R air[3] = {}, air_across = 0, air_along = 0, air_most = 0;
   R smallest = 0;
   R dt = 0, to_way = 0, to_velocity = 0;
   R k = 0, middle = 0;
@@ -77,7 +78,7 @@ struct DeviceStepMeasures {
   float straight, diagonal;  ///< squares of the lengths of the longest springs left whole, m²; where springs are torn,
                              ///< `straight` is of those along the rows alone,
   float bending;             ///< and this of those down the columns
-  std::uint32_t bad;  ///< 1: a number of the state is not finite
+  std::uint32_t bad;         ///< 1: a number of the state is not finite
 };
 
 }  // namespace tyglab::opencl

@@ -108,8 +108,8 @@ Balance DeviceSolver<R>::solve_stiff() {
            *const x_rows = state_.map(x, CL_MAP_READ), *const v_rows = state_.map(v, CL_MAP_READ | CL_MAP_WRITE);
   implicit::Crew alone;
   const Balance balance = stiff_.solve(
-      implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, x_rows, v_rows,
-                             state_.stride(), [this] { return stops(); }, [](double) { return false; },
+      implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, nullptr, x_rows,
+                             v_rows, state_.stride(), [this] { return stops(); }, [](double) { return false; },
                              [this](double part) { note_progress(part); }, alone},
       counts_);
   state_.unmap(c_x, c_x_rows), state_.unmap(c_v, c_v_rows), state_.unmap(x, x_rows), state_.unmap(v, v_rows);
