@@ -221,14 +221,15 @@ void Simulation::take_engine(const Preset& next, const State& state) {
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
 int Simulation::update_gust() {
   const GustSpan span = gust_span(preset_, time());
-  const glm::dvec3 W = span.factor * preset_.W;
-  if (W != effective_preset_.W) {
+  const glm::dvec3 W = span.factor * preset_.W, u = span.factor * preset_.u;
+  if (W != effective_preset_.W || u != effective_preset_.u) {
     if (watch_) energy();
     const glm::dvec3 before = std::exchange(effective_preset_.W, W);
+    const glm::dvec3 u_before = std::exchange(effective_preset_.u, u);
     try {
       engine_->set_preset(effective_preset_, tears_);
     } catch (...) {
-      effective_preset_.W = before;
+      effective_preset_.W = before, effective_preset_.u = u_before;
       throw;
     }
     watch_edit(Ledger::Source::edits);
@@ -474,10 +475,11 @@ void Simulation::diverge(const AdvanceResult& part) {
                 ? "the mass is farther from x_0 than 1000 times L (or than its offset, if that is larger)"
                 : "a " + part.quantity + " is no longer a finite number";
   if (!runaway && springs_too_weak(preset_)) {
-    d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight" +
-                                                 std::string(preset_.W != glm::dvec3(0) ? " and wind" : "") +
-                                                 (preset_.bodies.empty() ? "; " : " and for the push of bodies; ")
-                                           : ": the spring is too weak for m·g; ";
+    d.cause += preset_.kind == Kind::cloth
+                   ? ": the springs are too weak for weight" +
+                         std::string(preset_.W != glm::dvec3(0) || force::air.on(preset_) ? " and wind" : "") +
+                         (preset_.bodies.empty() ? "; " : " and for the push of bodies; ")
+                   : ": the spring is too weak for m·g; ";
     d.cause += std::string(scheme(preset_.integrator).title) + " is stable here at dt = " + quantity(preset_.dt, "s");
     d.advice = advice_for_weak_springs(preset_);
   } else {
@@ -489,10 +491,19 @@ void Simulation::diverge(const AdvanceResult& part) {
 }
 
 Snapshot Simulation::snapshot() {
-  return {lattice_,     preset_.kind, read(),
-          tears_,       time(),       steps_,
-          untouched_,   preset_,      engine_->held_motion(),
-          steps_at_dt_, time_at_dt_,  effective_preset_.W};
+  return {lattice_,
+          preset_.kind,
+          read(),
+          tears_,
+          time(),
+          steps_,
+          untouched_,
+          preset_,
+          engine_->held_motion(),
+          steps_at_dt_,
+          time_at_dt_,
+          effective_preset_.W,
+          effective_preset_.u};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -502,7 +513,7 @@ void Simulation::restore(const Snapshot& then) {
   const bool repeats = then.held && changes(then.of, preset_).within(motionless);
   Preset gusty = in_gusts(preset_, then.t);
   // What the method held then belongs to the wind of its last step, and learns of the next one's when that begins.
-  if (repeats) gusty.W = then.W;
+  if (repeats) gusty.W = then.W, gusty.u = then.u;
   engine_->prepare(pinned_.size());
   if (watch_) energy();
   if (gusts(preset_) || pushed_until_) engine_->set_preset(gusty, tears_);

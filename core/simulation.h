@@ -48,6 +48,7 @@ struct Snapshot {
   std::int64_t steps_at_dt = 0;              ///< step at which the dt of that moment was set
   double time_at_dt = 0;                     ///< and the time then, s
   glm::dvec3 W{0};                           ///< the wind of the last step, N: that of the next begins with a new gust
+  glm::dvec3 u{0};                           ///< likewise, m/s
   std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0); }
   /// A lower bound of bytes() for a lattice.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }

@@ -63,8 +63,8 @@ INLINE vec kept(int masked, maskv on, vec f) { return masked ? where(on, f) : f;
 #endif
 
 /// Force of a stretch spring with its damping, on its owner.
-INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, realv linear, int masked, maskv on) {
-  vec f = times(stretch_factor(k->stretch, minus_half, dot3(x_ij, x_ij)), x_ij);
+INLINE vec stretched(const Constants* k, REAL stiffness, REAL minus_half, vec x_ij, vec v_ij, realv linear, int masked, maskv on) {
+  vec f = times(stretch_factor(stiffness, minus_half, dot3(x_ij, x_ij)), x_ij);
 #ifdef DAMPING
   f = plus_scaled(f, k->k_d, v_ij);
 #endif
@@ -91,26 +91,33 @@ INLINE vec force_in_row(const Constants* k, const Row* r, int j, int masked, Car
   global const uchar* m = r->mask + j;
   const vec A = load(r->x0 + j, s), B = load(r->x0 + j + 1, s), C = load(r->x1 + j, s), E = load(r->x1 + j + 1, s);
   const vec to_right = minus(B, A), to_below = minus(C, A), to_slant = minus(E, A), to_cross = minus(C, B);
-#ifdef DAMPING
+#if defined(DAMPING) || defined(AIR)
   const vec vA = load(r->v0 + j, s), vB = load(r->v0 + j + 1, s), vC = load(r->v1 + j, s), vE = load(r->v1 + j + 1, s);
+#endif
+#ifdef DAMPING
   const vec v_right = minus(vB, vA), v_below = minus(vC, vA), v_slant = minus(vE, vA), v_cross = minus(vC, vB);
 #else
   const vec v_right = A, v_below = A, v_slant = A, v_cross = A;
 #endif
   const maskv on_S = has(masked, m, bit_S), on_SE = has(masked, m, bit_SE), on_SW = has(masked, m + 1, bit_SW);
   const maskv on_E = has(masked, m, bit_E);
-  const vec right = stretched(k, k->straight, to_right, v_right, LINEAR_OF(r, 0, j), masked, on_E);
-  const vec below = stretched(k, k->straight, to_below, v_below, LINEAR_OF(r, 1, j), masked, on_S);
-  const vec slant = stretched(k, k->diagonal, to_slant, v_slant, LINEAR_OF(r, 2, j), masked, on_SE);
-  const vec crossing = stretched(k, k->diagonal, to_cross, v_cross, LINEAR_OF(r, 3, j + 1), masked, on_SW);
+  const vec right = stretched(k, k->weft, k->weft_half, to_right, v_right, LINEAR_OF(r, 0, j), masked, on_E);
+  const vec below = stretched(k, k->warp, k->warp_half, to_below, v_below, LINEAR_OF(r, 1, j), masked, on_S);
+  const vec slant = stretched(k, k->shear, k->shear_half, to_slant, v_slant, LINEAR_OF(r, 2, j), masked, on_SE);
+  const vec crossing = stretched(k, k->shear, k->shear_half, to_cross, v_cross, LINEAR_OF(r, 3, j + 1), masked, on_SW);
   vec on_A = plus(plus(right, below), slant), on_B = minus(crossing, right);
   vec from_C = plus(below, crossing), from_E = slant;
 #ifdef WIND
   // The first triangle of a quad always has A and C, the second B and E (figure 2.7).
   const maskv odd = odd_quads(r->row + j);
   const vec C_to_E = minus(E, C), B_to_E = minus(E, B);
-  vec first = wind_on_corner(k, cross3(to_below, pick(odd, to_right, C_to_E)));
-  vec second = wind_on_corner(k, cross3(B_to_E, pick(odd, C_to_E, to_right)));
+  const vec first_n = cross3(to_below, pick(odd, to_right, C_to_E));
+  const vec second_n = cross3(B_to_E, pick(odd, C_to_E, to_right));
+  vec first = wind_on_corner(k, first_n), second = wind_on_corner(k, second_n);
+#ifdef AIR
+  first = plus(first, air_on_corner(k, first_n, vA, vC, pick(odd, vB, vE)));
+  second = plus(second, air_on_corner(k, second_n, vB, vE, pick(odd, vC, vA)));
+#endif
   if (masked) {
     const maskv below_E = has(1, m + r->mask_pitch, bit_E), split = choose(odd, on_SW, on_SE);
     first = where(on_S & split & choose(odd, on_E, below_E), first);

@@ -4,7 +4,8 @@
 // memory includes two rows above and three below the cloth, and 16 numbers before. Masks have two rows of zeros above
 // and below, and 16 zeros on either side of a row, so springs that would leave the cloth count as torn. Build options:
 // REAL (float or double, with REAL_IS_DOUBLE), WIDTH (1, 4, 8 or 16), and the features of the scene: BENDING, DAMPING,
-// LINEAR (which brings BENDING), WIND, BODIES with BODY_REAL, ONE_WEIGHT. Constants are arguments.
+// LINEAR (which brings BENDING), WIND, AIR (which brings WIND), BODIES with BODY_REAL, ONE_WEIGHT. Constants are
+// arguments.
 #ifdef REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #define BITS ulong
@@ -64,11 +65,12 @@ enum {
 
 /// As DeviceConstants in device_constants.h.
 typedef struct {
-  REAL stretch, straight, diagonal;  // the last two: -stretch times half of the rest length
+  REAL weft, weft_half, warp, warp_half, shear, shear_half;  // …_half: minus the constant times half of the rest length
   REAL bend, bending, shortest2;  // shortest2: square of the length under which a spring has no direction
   REAL k_d;                      // divided by dt where velocities are kept as displacements
   REAL weight;                   // m g
   REAL wind[3];                  // W/3
+  REAL air[3], air_across, air_along, air_most;  // as in PairTask of pair_sweep.h
   REAL smallest;                 // the least normal number
   REAL dt, to_way, to_velocity;  // what a stored velocity is multiplied with to be a way, m, and to be a velocity, m/s
   REAL k, middle;                // of the mass on a spring: its spring's, and the height where it rests
@@ -165,6 +167,22 @@ INLINE vec wind_on_corner(const Constants* k, vec n) {
   const realv push = (k->wind[0] * n.x + (k->wind[1] * n.y + k->wind[2] * n.z)) / n2;
   return times(n2 > (realv)(k->smallest) ? push : ZERO, n);
 }
+#ifdef AIR
+/// What the air does to a corner of the triangle with normal n that moves as the mean of corners with those velocities.
+INLINE vec air_on_corner(const Constants* k, vec n, vec a, vec b, vec c) {
+  const vec sum = plus(plus(a, b), c);
+  const REAL third = (REAL)1 / 3;
+  const vec u = {(realv)(k->air[0]) - third * sum.x, (realv)(k->air[1]) - third * sum.y,
+                 (realv)(k->air[2]) - third * sum.z};
+  const realv n2 = dot3(n, n), through = dot3(n, u);
+  const realv resists = fmin((realv)(k->air_along) * sqrt(n2 * dot3(u, u)), (realv)(k->air_most));
+  const realv more = (fmin((realv)(k->air_across) * fabs(through), (realv)(k->air_most)) - resists) * through / n2;
+  const vec f = plus_times(times(more, n), resists, u), none = {ZERO, ZERO, ZERO};
+  const vec on = {n2 > (realv)(k->smallest) ? f.x : none.x, n2 > (realv)(k->smallest) ? f.y : none.y,
+                  n2 > (realv)(k->smallest) ? f.z : none.z};
+  return on;
+}
+#endif
 INLINE maskv choose(maskv odd, maskv yes, maskv no) { return (odd & yes) | (~odd & no); }
 INLINE vec pick(maskv odd, vec yes, vec no) {
   const vec p = {odd ? yes.x : no.x, odd ? yes.y : no.y, odd ? yes.z : no.z};

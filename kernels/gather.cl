@@ -27,7 +27,9 @@ INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v,
                         maskv on) {
   const int to = di * 3 * b->stride + dj;
   const vec x_ij = minus(load(b->x + to, b->stride), x);
-  realv factor = stretch_factor(k->stretch, di != 0 && dj != 0 ? k->diagonal : k->straight, dot3(x_ij, x_ij));
+  const int warp = dj == 0, shear = di != 0 && dj != 0;
+  realv factor = stretch_factor(shear ? k->shear : warp ? k->warp : k->weft,
+                                shear ? k->shear_half : warp ? k->warp_half : k->weft_half, dot3(x_ij, x_ij));
   if (masked) factor = on ? factor : ZERO;
   factor += LINEAR_AT(b, number, di, dj);
   f = plus_times(f, factor, x_ij);
@@ -48,7 +50,7 @@ INLINE vec with_bending(vec f, const Constants* k, const Block* b, vec x, int nu
 #endif
 
 #ifdef WIND
-/// Adds the wind on the triangles of one of the quads that the particle is a corner of: the quad's upper left particle
+/// Adds wind and air on the triangles of one of the quads that the particle is a corner of: the quad's upper left particle
 /// A stands di rows below and dj columns to the right of it (0 or -1). Even quads A B C E are split from A to E, odd
 /// ones from C to B (figure 2.7); the first triangle always has A and C, the second B and E.
 INLINE vec with_quad(vec f, const Constants* k, const Block* b, int di, int dj, int masked) {
@@ -56,8 +58,16 @@ INLINE vec with_quad(vec f, const Constants* k, const Block* b, int di, int dj, 
   const vec A = load(at, b->stride), B = load(at + 1, b->stride), C = load(at + 3 * b->stride, b->stride),
             E = load(at + 3 * b->stride + 1, b->stride);
   const maskv odd = odd_quads(b->row + di + b->column + dj);
-  vec first = wind_on_corner(k, cross3(minus(C, A), pick(odd, minus(B, A), minus(E, C))));
-  vec second = wind_on_corner(k, cross3(minus(E, B), pick(odd, minus(E, C), minus(B, A))));
+  const vec first_n = cross3(minus(C, A), pick(odd, minus(B, A), minus(E, C)));
+  const vec second_n = cross3(minus(E, B), pick(odd, minus(E, C), minus(B, A)));
+  vec first = wind_on_corner(k, first_n), second = wind_on_corner(k, second_n);
+#ifdef AIR
+  global const REAL* speed = b->v + di * 3 * b->stride + dj;
+  const vec vA = load(speed, b->stride), vB = load(speed + 1, b->stride), vC = load(speed + 3 * b->stride, b->stride),
+            vE = load(speed + 3 * b->stride + 1, b->stride);
+  first = plus(first, air_on_corner(k, first_n, vA, vC, pick(odd, vB, vE)));
+  second = plus(second, air_on_corner(k, second_n, vB, vE, pick(odd, vC, vA)));
+#endif
   // A stands in both triangles of an even quad and in the first one of an odd quad, and so on.
   const int first_always = dj == 0, both_if_odd = di != dj;
   const maskv both = both_if_odd ? odd : ~odd;

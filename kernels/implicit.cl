@@ -12,7 +12,7 @@ enum { spring_parts = 4, particle_parts = 24, block_parts = 6 };
 
 /// As DeviceLinear in device_constants.h.
 typedef struct {
-  REAL stretch, bend, k_d;                // times h²/m, h²/m, h/m
+  REAL weft, warp, shear, bend, k_d;  // times h²/m, the last h/m
   REAL own;                          // of A's diagonal beside the springs
   REAL straight, diagonal, bending;  // rest lengths
   REAL shortest;                     // the length under which a bending spring has no direction
@@ -129,10 +129,10 @@ INLINE void linearise_share(const System* s, global const REAL* x_field, global 
 #define LINEARISE(number, to, bit, rest, k, bends, damped)                                       \
   linearise_spring(s, x, to, has(1, m, bit), rest, k, bends, damped, LINEAR_PART(number), \
                    out + (number) * spring_parts * s->mask_pitch)
-    LINEARISE(0, 1, bit_E, l->straight, l->stretch, 0, l->k_d);
-    LINEARISE(1, below, bit_S, l->straight, l->stretch, 0, l->k_d);
-    LINEARISE(2, below + 1, bit_SE, l->diagonal, l->stretch, 0, l->k_d);
-    LINEARISE(3, below - 1, bit_SW, l->diagonal, l->stretch, 0, l->k_d);
+    LINEARISE(0, 1, bit_E, l->straight, l->weft, 0, l->k_d);
+    LINEARISE(1, below, bit_S, l->straight, l->warp, 0, l->k_d);
+    LINEARISE(2, below + 1, bit_SE, l->diagonal, l->shear, 0, l->k_d);
+    LINEARISE(3, below - 1, bit_SW, l->diagonal, l->shear, 0, l->k_d);
 #ifdef BENDING
     LINEARISE(4, 2, bit_EE, l->bending, l->bend, 1, 0);
     LINEARISE(5, 2 * below, bit_SS, l->bending, l->bend, 1, 0);

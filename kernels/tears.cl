@@ -9,7 +9,7 @@
 #endif
 
 /// Whether the spring from one particle to another is overloaded; its tension as stretch_tension() has it.
-INLINE int overloaded(global const REAL* a, global const REAL* b, int stride, EXACT k_s, EXACT rest, EXACT F_max,
+INLINE int overloaded(global const REAL* a, global const REAL* b, int stride, EXACT k, EXACT rest, EXACT F_max,
                       EXACT* r2) {
   EXACT sum = 0;
   for (int c = 0; c < 3; ++c) {
@@ -17,13 +17,13 @@ INLINE int overloaded(global const REAL* a, global const REAL* b, int stride, EX
     sum += d * d;
   }
   *r2 = sum;
-  return k_s * (sqrt(sum) - rest) > F_max;
+  return k * (sqrt(sum) - rest) > F_max;
 }
 
 /// Breaks the overloaded springs in one direction of a block's particles, unless one of their ends is guarded; returns
 /// the square of the longest of those left that could break.
 INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, global uchar* springs,
-                           global const uchar* guards, global uint* report, int di, int dj, int bit, EXACT k_s,
+                           global const uchar* guards, global uint* report, int di, int dj, int bit, EXACT k,
                            EXACT rest, EXACT F_max, REAL certain2) {
   const int to = di * 3 * stride + dj, mask_to = di * mask_pitch + dj;
   const vec x_ij = minus(load(x + to, stride), load(x, stride));
@@ -34,7 +34,7 @@ INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, glo
   for (int lane = 0; lane < WIDTH; ++lane) {
     if ((springs[lane] & bit) == 0 || guards[lane] || guards[mask_to + lane]) continue;
     EXACT length2;
-    if (overloaded(x + lane, x + to + lane, stride, k_s, rest, F_max, &length2)) {
+    if (overloaded(x + lane, x + to + lane, stride, k, rest, F_max, &length2)) {
       springs[lane] &= (uchar)~bit;
       atomic_or(report + report_torn, 1);
     } else {
@@ -44,30 +44,32 @@ INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, glo
   return left;
 }
 
-#define TEAR(di, dj, bit, rest, certain2) \
-  tear_direction(at, stride, mask_pitch, own, guard, report, di, dj, bit, k_s, rest, F_max, certain2)
+#define TEAR(di, dj, bit, k, rest, certain2) \
+  tear_direction(at, stride, mask_pitch, own, guard, report, di, dj, bit, k, rest, F_max, certain2)
 
 /// Breaks what is overloaded, and reports how long the springs are that are left. A row of work-items a row of
-/// particles; as few as keep the device busy, since they all report to the same words. certain…2: squares of lengths up
-/// to which rounding cannot matter.
+/// particles; as few as keep the device busy, since they all report to the same words. certain_…2: squares of lengths
+/// up to which rounding cannot matter.
 kernel void tear(global const REAL* x, global uchar* springs, global const uchar* guards, global uint* report, int slot,
-                 int stride, int mask_pitch, int rows, int columns, EXACT k_s, EXACT straight, EXACT diagonal,
-                 EXACT F_max, REAL certain_straight2, REAL certain_diagonal2) {
+                 int stride, int mask_pitch, int rows, int columns, EXACT weft, EXACT warp, EXACT shear, EXACT straight,
+                 EXACT diagonal, EXACT F_max, REAL certain_weft2, REAL certain_warp2, REAL certain_shear2) {
   const int row = (int)get_global_id(1);
   if (row >= rows) return;
   report += slot * report_words;
-  REAL straight2 = 0, diagonal2 = 0;
+  REAL weft2 = 0, warp2 = 0, shear2 = 0;
   for (int column = (int)get_global_id(0) * WIDTH; column < columns; column += (int)get_global_size(0) * WIDTH) {
     global const REAL* at = x + place(row, column, 3 * stride);
     global uchar* own = springs + place(row, column, mask_pitch);
     global const uchar* guard = guards + place(row, column, mask_pitch);
-    const REAL E = TEAR(0, 1, bit_E, straight, certain_straight2), S = TEAR(1, 0, bit_S, straight, certain_straight2);
-    const REAL SE = TEAR(1, 1, bit_SE, diagonal, certain_diagonal2);
-    const REAL SW = TEAR(1, -1, bit_SW, diagonal, certain_diagonal2);
-    straight2 = fmax(straight2, fmax(E, S)), diagonal2 = fmax(diagonal2, fmax(SE, SW));
+    weft2 = fmax(weft2, TEAR(0, 1, bit_E, weft, straight, certain_weft2));
+    warp2 = fmax(warp2, TEAR(1, 0, bit_S, warp, straight, certain_warp2));
+    const REAL SE = TEAR(1, 1, bit_SE, shear, diagonal, certain_shear2);
+    const REAL SW = TEAR(1, -1, bit_SW, shear, diagonal, certain_shear2);
+    shear2 = fmax(shear2, fmax(SE, SW));
   }
-  atomic_max(report + report_straight, float_bits(straight2));
-  atomic_max(report + report_diagonal, float_bits(diagonal2));
+  atomic_max(report + report_straight, float_bits(weft2));
+  atomic_max(report + report_bending, float_bits(warp2));
+  atomic_max(report + report_diagonal, float_bits(shear2));
 }
 
 /// Makes the masks that sweeps read from those of the stretch springs and of what is free: says which bending springs

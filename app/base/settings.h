@@ -17,8 +17,8 @@ struct Layout {
   bool left = true, right = true, status = true;
   bool inside = false;  ///< the picked particle's step, written out, stands among the plots
   bool map = false;     ///< the map of stiffness against dt stands among the plots
-  std::set<std::string> folded{"Start",  "Stability", "Accuracy",
-                               "Copies", "Energy",    "Performance"};  ///< sections that are closed
+  std::set<std::string> folded{"Start",  "Fabric", "Stability",  "Accuracy",
+                               "Copies", "Energy", "Performance"};  ///< sections that are closed
   bool operator==(const Layout&) const = default;
 };
 

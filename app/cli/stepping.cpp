@@ -67,11 +67,11 @@ bool takes_long_to_show(const Simulation& simulation) {
   return simulation.lattice().size() > most;
 }
 
-void end_interrupted(const std::string& left_out) {
+void end_interrupted(const std::string& what_is_missing) {
   std::cout.flush(), std::cerr.flush();
   end_at_once(
       "tyglab: Interrupted; what was written so far has whole rows and frames, and no older file was replaced. " +
-          left_out + "\n",
+          what_is_missing + "\n",
       exit_interrupted);
 }
 

@@ -31,6 +31,7 @@ Preset small_cloth(const Preset& preset) {
   if (!force::damping.on(preset)) small.k_d = 0;
   if (!force::bend.on(preset)) small.k_b = 0;
   if (preset.W != glm::dvec3(0)) small.W = {0, 0, 1e-4};
+  if (force::air.on(preset)) small.air_density = 1;
   small.bodies = preset.bodies;
   return small;
 }

@@ -62,11 +62,13 @@ bool is_accurate_solution(std::span<const Difference> differences) {
                      [](const Difference& more) { return more.value_of(&Preset::engine) != nullptr; });
 }
 
-/// Whether a copy's method runs only on the CPU engine.
-bool needs_cpu(std::span<const Difference> differences) {
-  return std::any_of(differences.begin(), differences.end(), [](const Difference& difference) {
+/// Whether a copy's method, or a force with it, runs only on the CPU engine.
+bool needs_cpu(const Preset& original, std::span<const Difference> differences) {
+  return std::any_of(differences.begin(), differences.end(), [&](const Difference& difference) {
+    Preset copy = original;
     const std::string* method = difference.value_of(&Preset::integrator);
-    return method != nullptr && !runs_on_opencl(scheme(*method));
+    if (method != nullptr) copy.integrator = *method;
+    return method != nullptr && (!runs_on_opencl(scheme(*method)) || missing_on_opencl(copy) != nullptr);
   });
 }
 
@@ -221,9 +223,11 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
   const Precision other = single ? Precision::double_ : Precision::float_;
   add(std::string(name_of(other)), {&Preset::precision, other}, "Precision");
   if (!cpu) add("CPU", {&Preset::engine, EngineKind::cpu}, "Engine");
-  if (cpu && runs_on_opencl(scheme(preset.integrator))) add("OpenCL", {&Preset::engine, EngineKind::opencl}, "Engine");
+  if (cpu && runs_on_opencl(scheme(preset.integrator)) && missing_on_opencl(preset) == nullptr)
+    add("OpenCL", {&Preset::engine, EngineKind::opencl}, "Engine");
   for (CopyChoice& choice : choices)
-    if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back(&Preset::engine, EngineKind::cpu);
+    if (!cpu && needs_cpu(preset, choice.differences))
+      choice.differences.emplace_back(&Preset::engine, EngineKind::cpu);
   return choices;
 }
 

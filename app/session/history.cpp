@@ -23,6 +23,7 @@ std::size_t state_bytes(const std::vector<HistoryEntry>& list) {
 
 /// The value to be read; none where that takes more than a number or a word.
 std::optional<std::string> value_text(const Preset& preset, const PresetField& field) {
+  if (field.row != nullptr && is_absent(*field.row, preset)) return "as " + std::string(field.row->otherwise);
   if (const auto* number = std::get_if<double Preset::*>(&field.member)) return short_number(preset.**number);
   if (const auto* whole = std::get_if<int Preset::*>(&field.member)) return std::to_string(preset.**whole);
   if (const auto* word = std::get_if<std::string Preset::*>(&field.member))
@@ -50,7 +51,8 @@ std::string in_words(const PresetField& field, const Preset& before, const Prese
   const auto from = value_text(before, field), to = value_text(after, field);
   if (!from) return text;
   text += " " + *from + " → " + *to;
-  if (field.row != nullptr && !field.row->unit.empty()) text += " " + std::string(field.row->unit);
+  if (field.row != nullptr && !field.row->unit.empty() && !is_absent(*field.row, after))
+    text += " " + std::string(field.row->unit);
   return text;
 }
 

@@ -376,6 +376,7 @@ ConstantPlace constant_place(std::string_view name) {
 
 double constant_value(const ConstantPlace& place, const Preset& preset) {
   assert(place.row != nullptr && place.component >= 0 && place.component < 3);
+  if (is_absent(*place.row, preset)) return constant_value(constant_place(place.row->otherwise), preset);
   if (const auto* number = std::get_if<double Preset::*>(&place.row->field)) return preset.**number;
   if (const auto* integer = std::get_if<int Preset::*>(&place.row->field)) return preset.**integer;
   return (preset.*std::get<glm::dvec3 Preset::*>(place.row->field))[place.component];

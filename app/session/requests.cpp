@@ -29,14 +29,18 @@ void follow_constants(Session& session, Preset& next) {
   if (!changes(session.requested_preset(), next).within(appearance)) next.dt = *dt;
 }
 
-/// A method that the present engine does not run brings the CPU engine with it. Returns what is to be said of that.
+/// A method or a force that the present engine does not run brings the CPU engine with it. Returns what is to be said
+/// of that.
 std::string take_engine_along(const Session& session, Preset& next) {
   if (next.engine == EngineKind::cpu) return {};
   const Scheme& method = scheme(next.integrator);
-  const bool runs = next.engine == EngineKind::opencl ? runs_on_opencl(method) : is_written_out(method);
-  if (runs || next.integrator == session.requested_preset().integrator) return {};
+  const bool opencl = next.engine == EngineKind::opencl,
+             runs = opencl ? runs_on_opencl(method) : is_written_out(method);
+  const Force* missing = opencl ? missing_on_opencl(next) : nullptr;
+  if (missing == nullptr && (runs || next.integrator == session.requested_preset().integrator)) return {};
   next.engine = EngineKind::cpu;
-  return std::string(method.title) + " runs only on the CPU engine, so that engine was chosen.";
+  return (missing != nullptr && runs ? std::string(missing->symbol) + " with " : std::string()) +
+         std::string(method.title) + " runs only on the CPU engine, so that engine was chosen.";
 }
 
 void ask_about_changes(Session& session, Request then) {

@@ -54,8 +54,13 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   hand_squared_ = hand_speed * hand_speed;
   particles_ = lattice.size(), dt_ = p.dt;
   const double wind = cloth ? triangles / corners * glm::length(p.W) / p.m : 0;
+  // Air pushes only what is slower than it, up to |u| away from it; stretched triangles have up to twice the area here.
+  const double u = force::air.on(p) ? glm::length(p.u) : 0, twice = 2;
+  const double pushes = std::min(triangles / corners * twice * p.air_density / 4 * p.L * p.L * (p.C_N + p.C_T) * 2 * u,
+                                 triangles * 2 * most_air_damping(p, p.dt));
+  const double air = pushes * 2 * u / p.m;
   const double at_hand = std::sqrt(sum_of(&Force::at_particle, p) / p.m);
-  acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind) + at_hand * hand_speed;
+  acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind + air) + at_hand * hand_speed;
   // A body that moves may throw the cloth about: what energy that is no formula says.
   if (any_moves(p.bodies)) acceleration_ = std::numeric_limits<double>::infinity();
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;

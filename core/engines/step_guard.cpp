@@ -33,10 +33,10 @@ void StepGuard::invalidate() {
 
 void StepGuard::accept_changes(const Preset& from, const Preset& to) {
   EffectSet changed = changes(from, to);
-  if (changed.touches(Effect::force) && from.W != to.W) {
+  if (changed.touches(Effect::force) && (from.W != to.W || from.u != to.u)) {
     // Wind alone, which gusts change all the time, changes no energy.
     Preset in_old_wind = to;
-    in_old_wind.W = from.W;
+    in_old_wind.W = from.W, in_old_wind.u = from.u;
     changed = changes(from, in_old_wind);
   }
   energy_stale_ |= changed.touches(Effect::force), pushes_stale_ |= changed.touches(Effect::bodies);

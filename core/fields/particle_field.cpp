@@ -58,7 +58,7 @@ class RowOfSprings {
                             std::ptrdiff_t(di) * view_.stride + dj,
                             std::max(0, -dj),
                             lattice_.columns - std::max(0, dj),
-                            p_.k_s,
+                            spring_constant(p_, to),
                             to.rest * p_.L};
     const std::uint8_t* masks = tears_.row(owns ? i : i + di);
     if (masks == nullptr) return take(field, springs);

@@ -57,7 +57,7 @@ struct FieldSprings {
   const R* x[3];
   std::ptrdiff_t other;
   int begin, end;
-  double k_s, rest;  ///< N/m, m
+  double k, rest;  ///< N/m, m
 };
 
 /// largest[j] becomes F_s (2.5) of the spring, N, where that is more.

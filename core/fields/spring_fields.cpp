@@ -21,7 +21,7 @@ struct Tension {
   Spring<L> many;
   Spring<double> one;
   explicit HWY_INLINE Tension(const FieldSprings<R>& s)
-      : many(Spring<L>::of(s.k_s, s.rest, &L::all)), one(Spring<double>::of(s.k_s, s.rest, std::identity())) {}
+      : many(Spring<L>::of(s.k, s.rest, &L::all)), one(Spring<double>::of(s.k, s.rest, std::identity())) {}
   HWY_INLINE L operator()(L before, L r2) const {
     return hn::Max(before.v, hn::Mul(stretch_factor(many, r2).v, hn::Sqrt(r2.v)));
   }

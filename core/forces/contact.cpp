@@ -252,7 +252,10 @@ GustSpan gust_span(const Preset& preset, double t) {
 }
 
 Preset in_gusts(Preset preset, double t) {
-  if (gusts(preset)) preset.W *= gust_span(preset, t).factor;
+  if (gusts(preset)) {
+    const double factor = gust_span(preset, t).factor;
+    preset.W *= factor, preset.u *= factor;
+  }
   return preset;
 }
 

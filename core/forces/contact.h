@@ -114,16 +114,17 @@ bool meets(std::span<const PlacedBody> bodies, const Contacts& rule, const Conta
 /// bodies can leave it inside one).
 bool collide(std::span<const PlacedBody> bodies, const Contacts& rule, ContactStep& step);
 
-// Gusts: W varies with simulated time. They are not part of the report's model, whose wind is steady, and off by
+// Gusts: W and u vary with simulated time. They are not part of the report's model, whose wind is steady, and off by
 // default. The acceleration remains a(x, v): the wind changes only between two steps, so all stages of a step use one
 // wind.
 //
-// Simulation::advance_part gives the engine another W between steps, so engines, methods and formulas need no code for
-// gusts. If gusts are off, they cost one comparison for each call of advance.
+// Simulation::advance_part gives the engine another W and u between steps, so engines, methods and formulas need no
+// code for gusts. If gusts are off, they cost one comparison for each call of advance.
 
 /// Whether the wind of this preset varies.
 inline bool gusts(const Preset& preset) {
-  return preset.gust > 0 && preset.W != glm::dvec3(0) && preset.kind == Kind::cloth;
+  return preset.gust > 0 && preset.kind == Kind::cloth &&
+         (preset.W != glm::dvec3(0) || (preset.u != glm::dvec3(0) && preset.air_density > 0));
 }
 
 /// The gusts at time t (s) relative to their strength, -1 to 1: a sum of three sines whose periods, the longest of
@@ -132,7 +133,7 @@ double gust_wave(double t, double period);
 
 /// The wind over the next steps.
 struct GustSpan {
-  double factor = 1;  ///< of W
+  double factor = 1;  ///< of W and u
   int steps = 1;      ///< of dt for which the factor holds, at least 1
 };
 /// At time t (s). The wave is sampled in the middle of each 64th of a period, or of a step if dt is longer than that,
@@ -140,7 +141,7 @@ struct GustSpan {
 /// wind over the step.
 GustSpan gust_span(const Preset& preset, double t);
 
-/// The preset with W as it is at time t (s); unchanged if there are no gusts.
+/// The preset with W and u as they are at time t (s); unchanged if there are no gusts.
 Preset in_gusts(Preset preset, double t);
 
 }  // namespace tyglab

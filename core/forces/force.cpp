@@ -23,6 +23,35 @@ std::size_t index_of(const Force& force) {
   return std::size_t(at - force::all.begin());
 }
 
+namespace {
+
+/// The stretch spring between two corners of a quad: its owner is the upper end, or the left one within a row.
+Stencil::Spring edge(const Corner& a, const Corner& b) {
+  const bool a_owns = a.di < b.di || (a.di == b.di && a.dj < b.dj);
+  const Corner &from = a_owns ? a : b, &to = a_owns ? b : a;
+  const int di = to.di - from.di, dj = to.dj - from.dj;
+  return {di == 0 ? 0 : dj == 0 ? 1 : dj > 0 ? 2 : 3, from.di, from.dj};
+}
+
+}  // namespace
+
+std::span<const Stencil> triangle_stencils() {
+  static const auto triangles = [] {
+    std::array<Stencil, 4> all;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const auto& corners = quad_triangles[n / 2][n % 2];
+      all[n].owners = n < 2 ? Stencil::Owners::even : Stencil::Owners::odd;
+      all[n].points = all[n].springs = 3;
+      for (std::size_t k = 0; k < 3; ++k) {
+        all[n].at[k] = {corners[k].di, corners[k].dj};
+        all[n].spring[k] = edge(corners[k], corners[(k + 1) % 3]);
+      }
+    }
+    return all;
+  }();
+  return triangles;
+}
+
 std::span<const Stencil> stretch_stencils() {
   static const auto list = [] {
     std::array<Stencil, stretch_directions> all;

@@ -4,6 +4,7 @@
 // compute the springs and the wind by hand, and tests hold them against it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -90,9 +91,9 @@ struct Force {
 };
 
 namespace force {
-extern const Force stretch, bend, rigidity, damping, gravity, wind;
+extern const Force stretch, bend, rigidity, damping, gravity, wind, air;
 /// In the order of the report, and what it does not have beside what is like it.
-inline constexpr std::array all{&stretch, &bend, &rigidity, &damping, &gravity, &wind};
+inline constexpr std::array all{&stretch, &bend, &rigidity, &damping, &gravity, &wind, &air};
 }  // namespace force
 
 /// Where a force stands in the table.
@@ -173,22 +174,48 @@ inline double linear_sum_of(double (*Force::*bound)(const Preset&), const Preset
   return sum;
 }
 
-/// The force of the lattice's springs in that direction, and their constant, N/m.
+/// The force of the lattice's springs in that direction.
 inline const Force& spring_force(const Direction& to) {
   return to.bending ? force::bend : force::stretch;
 }
-inline double spring_constant(const Preset& preset, const Direction& to) {
-  return to.bending ? preset.k_b : preset.k_s;
-}
-/// Both, for engines that compute the springs by hand.
+/// The constants of the lattice's springs, N/m or times a factor: along the rows (weft), down the columns (warp), of
+/// the diagonals, and of the springs that resist bending.
 struct SpringConstants {
-  double stretch, bend;  ///< N/m
+  double weft = 0, warp = 0, shear = 0, bend = 0;
+  double of(const Direction& to) const { return to.bending ? bend : to.di == 0 ? weft : to.dj == 0 ? warp : shear; }
+  /// The largest and the least of stretch springs.
+  double largest() const { return std::max({weft, warp, shear}); }
+  double least() const { return std::min({weft, warp, shear}); }
+  /// Upper bound of Σ k |x_i - x_j|² over all stretch springs, divided by Σ |x|²: 4 sin² a and 4 sin² b of the straight
+  /// ones and 4 (1 - cos 2a cos 2b) of the diagonals are largest together where each cosine is 1 or -1.
+  double largest_stretch_eigenvalue() const {
+    return std::max(4 * std::max(weft, warp) + 8 * shear, 4 * (weft + warp));
+  }
+  bool stretches_alike() const { return weft == warp && warp == shear; }
+  friend SpringConstants operator*(double factor, const SpringConstants& k) {
+    return {factor * k.weft, factor * k.warp, factor * k.shear, factor * k.bend};
+  }
+  bool operator==(const SpringConstants&) const = default;
 };
 inline SpringConstants spring_constants(const Preset& preset) {
-  return {preset.k_s, preset.k_b};
+  const auto own = [&](double k) { return k == left_out ? preset.k_s : k; };
+  return {own(preset.k_weft), own(preset.k_warp), own(preset.k_shear), preset.k_b};
+}
+inline double spring_constant(const Preset& preset, const Direction& to) {
+  return spring_constants(preset).of(to);
+}
+
+/// Whether springs break in the scene once they are overloaded.
+inline bool tears_springs(const Preset& preset) {
+  return preset.kind == Kind::cloth && preset.F_max > 0 && spring_constants(preset).largest() > 0;
 }
 
 /// The stretch springs of the lattice, one stencil a direction, which damping shares.
 std::span<const Stencil> stretch_stencils();
+/// The two triangles of a quad, split one way where i + j is even and the other way where it is odd (figure 2.7).
+std::span<const Stencil> triangle_stencils();
+
+/// The most that air resists a corner of a triangle with in a step of dt, N s/m (air.cpp).
+double most_air_damping(const Preset& preset, double dt);
 
 }  // namespace tyglab

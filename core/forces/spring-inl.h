@@ -62,8 +62,8 @@ HWY_INLINE V bend_factor(const Spring<V>& s, V r2) {
 }
 
 /// F_s of (2.5) as a number, N: what tearing compares with F_max.
-HWY_INLINE double stretch_tension(double k_s, double rest, double r2) {
-  return std::max(0.0, k_s * (std::sqrt(r2) - rest));
+HWY_INLINE double stretch_tension(double k, double rest, double r2) {
+  return std::max(0.0, k * (std::sqrt(r2) - rest));
 }
 
 /// Force of the mass on a spring's two-sided spring (2.3) and its damping: F = -k (x - x_0) - k_d v.

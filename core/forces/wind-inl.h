@@ -1,4 +1,4 @@
-// Wind on a triangle (2.16), for vectors of triangles and for a single one. Included once for each SIMD target.
+// Wind (2.16) and air on a triangle, for vectors of triangles and for a single one. Included once for each SIMD target.
 #if defined(TYGLAB_WIND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_WIND_INL_H_
 #undef TYGLAB_WIND_INL_H_
@@ -22,6 +22,16 @@ template <class V3, class V>
 HWY_INLINE V3 wind_on_corner(V3 n, V3 third_of_W, V smallest) {
   const V n2 = dot(n, n);
   return if_greater(n2, smallest, divided(dot(n, third_of_W), n2)) * n;
+}
+
+/// What the air does to a corner of the triangle with normal n, as above, where its velocity relative to the triangle
+/// is u: `across`, `along` and `most` as in PairTask.
+template <class V3, class V>
+HWY_INLINE V3 air_on_corner(V3 n, V3 u, V across, V along, V most, V smallest) {
+  const V n2 = dot(n, n), through = dot(n, u);
+  const V resists = least_of(along * root(n2 * dot(u, u)), most);
+  const V more = (least_of(across * absolute(through), most) - resists) * through;
+  return multiply_add(if_greater(n2, smallest, divided(more, n2)), n, if_greater(n2, smallest, resists) * u);
 }
 
 }  // namespace tyglab::HWY_NAMESPACE

@@ -54,7 +54,7 @@ std::string value_problem(const Row<T>& row, const T& object) {
                    " Allowed: " + joined(contact_names);
           return {};
         } else {
-          return range_problem(row, double(value));
+          return is_absent(row, double(value)) ? std::string() : range_problem(row, double(value));
         }
       },
       row.field);
@@ -117,9 +117,23 @@ class Reader {
              (told ? "the string \"" + node.text + "\"" : std::string(type_name(node.type))));
   }
 
+  /// The other constant's key in place of a number: this one is absent. What stands for that is no number that a file
+  /// may contain.
+  template <class T>
+  bool take_otherwise(const JsonNode& node, const std::string& path, const Row<T>& row, T& object) const {
+    if (node.type == Type::text && node.text == row.otherwise) {
+      object.*std::get<double T::*>(row.field) = left_out;
+      return true;
+    }
+    if (!node.is_number()) wrong_type(node, path, "a number, or " + std::string(row.otherwise));
+    if (const auto problem = range_problem(row, node.number); !problem.empty()) fail(node.line, path, problem);
+    return false;
+  }
+
   template <class T>
   void field(const JsonNode& node, const std::string& path, const Row<T>& row, T& object) const {
     if (const std::string problem = whole_number_problem(row, node); !problem.empty()) fail(node.line, path, problem);
+    if (!row.otherwise.empty() && take_otherwise(node, path, row, object)) return;
     std::visit([&](auto member) { value(node, path, object.*member); }, row.field);
     if (const auto problem = value_problem(row, object); !problem.empty()) fail(node.line, path, problem);
   }

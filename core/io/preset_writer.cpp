@@ -32,7 +32,7 @@ std::string field_text(const Row<T>& row, const T& object) {
         else if constexpr (std::is_same_v<Value, glm::dvec3>)
           return list_text(value);
         else
-          return shortest_number(double(value));
+          return is_absent(row, double(value)) ? json_text(row.otherwise) : shortest_number(double(value));
       },
       row.field);
 }
@@ -67,7 +67,8 @@ std::string bodies_text(const std::vector<Body>& bodies) {
 
 /// Constants that the first release did not have. A hash leaves them out where they have their defaults, so that a
 /// scene without them keeps its own.
-constexpr std::array<std::string_view, 3> later{"B", "twist", "contact"};
+constexpr std::array<std::string_view, 10> later{"B",       "twist",       "contact", "k_warp", "k_weft",
+                                                 "k_shear", "air_density", "u",       "C_N",    "C_T"};
 bool is_left_out(const PresetRow& row, const Preset& p) {
   return std::find(later.begin(), later.end(), row.key) != later.end() &&
          field_text(row, p) == field_text(row, Preset{});
@@ -80,7 +81,8 @@ std::string section_text(std::string_view section, const Preset& p, bool hashed)
     text += (text.empty() ? "" : ", ") + json_text(key) + ": " + value;
   };
   for (const PresetRow& row : notation())
-    if (row.section == section && !(hashed && is_left_out(row, p))) add(row.key, field_text(row, p));
+    if (row.section == section && !is_absent(row, p) && !(hashed && is_left_out(row, p)))
+      add(row.key, field_text(row, p));
   if (section == "cloth") add("pins", pins_text(p.pins));
   if (section == "solver")
     add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
@@ -94,6 +96,7 @@ std::string setting_text(const std::string& text) {
 
 template <class T>
 std::string setting_text(const Row<T>& row, const T& object) {
+  if (is_absent(row, object)) return std::string(row.otherwise);
   const auto* const word = std::get_if<std::string T::*>(&row.field);
   return word != nullptr ? setting_text(object.**word) : field_text(row, object);
 }

@@ -87,6 +87,9 @@ std::string Difference::key() const {
 }
 
 std::string Difference::value_text(int digits) const {
+  const auto* number = std::get_if<OfPreset<double>>(&constant_);
+  if (const PresetRow* row = number == nullptr ? nullptr : find_row(key()); row && is_absent(*row, number->value))
+    return std::string(row->otherwise);
   return std::visit([&](const auto& constant) { return text_of(constant.value, digits); }, constant_);
 }
 

@@ -41,6 +41,63 @@ const auto rows = std::to_array<PresetRow>({
     {"forces", "k_s", "k_s", "Spring constant, stretching", "Fjäderkonstant töjning", "N/m", &Preset::k_s, 0, 1e9,
      logarithmic, force, "2.5", "Stiffness against stretching. A higher value requires a smaller time step.", false,
      Kind::cloth, true},
+    {"forces",
+     "k_warp",
+     "k_warp",
+     "Spring constant of the warp",
+     "Fjäderkonstant varp",
+     "N/m",
+     &Preset::k_warp,
+     0,
+     1e9,
+     logarithmic,
+     force,
+     "",
+     "Stiffness of the threads down the columns; as k_s unless it is set.",
+     false,
+     Kind::cloth,
+     true,
+     {},
+     1,
+     "k_s"},
+    {"forces",
+     "k_weft",
+     "k_weft",
+     "Spring constant of the weft",
+     "Fjäderkonstant inslag",
+     "N/m",
+     &Preset::k_weft,
+     0,
+     1e9,
+     logarithmic,
+     force,
+     "",
+     "Stiffness of the threads along the rows; as k_s unless it is set.",
+     false,
+     Kind::cloth,
+     true,
+     {},
+     1,
+     "k_s"},
+    {"forces",
+     "k_shear",
+     "k_shear",
+     "Spring constant of the diagonals",
+     "Fjäderkonstant skjuvning",
+     "N/m",
+     &Preset::k_shear,
+     0,
+     1e9,
+     logarithmic,
+     force,
+     "",
+     "Stiffness against shear, when rows and columns no longer meet at right angles; as k_s unless it is set.",
+     false,
+     Kind::cloth,
+     true,
+     {},
+     1,
+     "k_s"},
     {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
      logarithmic, force, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
     {"forces",
@@ -72,9 +129,35 @@ const auto rows = std::to_array<PresetRow>({
      force, "2.2", "Acts along -y: F_g = m·g."},
     {"forces", "W", "W", "Wind", "Vind", "N", &Preset::W, -1e3, 1e3, linear, force, "2.16",
      "Force on each triangle along its normal: N (N·W).", false, Kind::cloth, true},
-    {"forces", "gust", "W_gust", "Strength of gusts, as a fraction of W", "Vindbyarnas styrka", "", &Preset::gust, 0,
-     10, linear, force, "", "The wind rises and falls by up to this fraction of W; 0 gives the report's steady wind.",
-     false, Kind::cloth, true},
+    {"forces",
+     "air_density",
+     "ρ_air",
+     "Density of the air",
+     "Luftens densitet",
+     "kg/m³",
+     &Preset::air_density,
+     0,
+     1e4,
+     logarithmic,
+     force,
+     "",
+     "Air resists motion through it and carries the cloth along with u; 1.2 at sea level, 0 leaves it out.",
+     true,
+     Kind::cloth,
+     true,
+     {},
+     1.2},
+    {"forces", "u", "u", "Velocity of the air", "Luftens hastighet", "m/s", &Preset::u, -1e3, 1e3, linear, force, "",
+     "Wind as a velocity: acts where ρ_air is above 0, by area and by the cloth's own velocity.", false, Kind::cloth,
+     true},
+    {"forces", "C_N", "C_N", "Air's coefficient across the cloth", "Luftmotstånd tvärs tyget", "", &Preset::C_N, 0, 100,
+     linear, force, "", "Force on a triangle along its normal: ½ρA·C_N|u·N|(u·N), u relative to it.", false,
+     Kind::cloth, true},
+    {"forces", "C_T", "C_T", "Air's coefficient along the cloth", "Luftmotstånd längs tyget", "", &Preset::C_T, 0, 100,
+     linear, force, "", "Force on a triangle in its plane: ½ρA·C_T|u|u_t, u relative to it.", false, Kind::cloth, true},
+    {"forces", "gust", "W_gust", "Strength of gusts, as a fraction of the wind", "Vindbyarnas styrka", "",
+     &Preset::gust, 0, 10, linear, force, "",
+     "W and u rise and fall by up to this fraction; 0 gives the report's steady wind.", false, Kind::cloth, true},
     {"forces", "gust_period", "T_gust", "Period of the gusts", "Vindbyarnas period", "s", &Preset::gust_period, 0.01,
      1e3, logarithmic, force, "", "Time from one gust to the next; two shorter waves are superimposed.", false,
      Kind::cloth, true},
@@ -139,9 +222,11 @@ const auto variable_rows = std::to_array<Variable>({
     {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
     {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downward."},
     {"F_wind", "F_wind", "Wind force", "Vindkraft", "N", "2.16", "Sum over the triangles at the particle."},
+    {"F_air", "F_air", "Force of the air", "Luftens kraft", "N", "",
+     "Drag and lift, a third of those on each triangle at the particle."},
     {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2",
      "Forces between particles: F_s + F_b + F_B + F_d."},
-    {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind and the hand."},
+    {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind, air and the hand."},
     {"x", "x", "Position", "Position", "m", "2.4", "Position of the particle."},
     {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Velocity of the particle, at the time of its position."},
     {"a", "x''", "Acceleration", "Acceleration", "m/s²", "2.1", "F/m; 0 for a pinned particle."},
@@ -182,7 +267,9 @@ std::string default_text(const Row<T>& row) {
           return "[" + shortest_number(value.x) + ", " + shortest_number(value.y) + ", " + shortest_number(value.z) +
                  "]";
         else
-          return row.zero_is_off && value == 0 ? "0 (never)" : shortest_number(double(value));
+          return is_absent(row, double(value))   ? "absent: " + std::string(row.otherwise)
+                 : row.zero_is_off && value == 0 ? "0 (never)"
+                                                 : shortest_number(double(value));
       },
       row.field);
 }
@@ -204,10 +291,11 @@ std::span<const PresetRow> notation() {
   return rows;
 }
 std::span<const Heading> headings() {
-  static const std::array<Heading, 6> list{{
+  static const std::array<Heading, 7> list{{
       {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
       {"Springs", "forces", {"k_s", "k_b", "B", "twist", "k_d", "k"}},
-      {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
+      {"Fabric", "", {"k_warp", "k_weft", "k_shear"}},
+      {"Outer forces", "", {"g", "W", "air_density", "u", "C_N", "C_T", "gust", "gust_period"}},
       {"Tearing", "tearing", {"F_max", "F_release"}},
       {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
       {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
@@ -265,6 +353,11 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   return meant ? "; did you mean " + std::string(*meant) + "?" : otherwise;
 }
 
+bool is_absent(const PresetRow& row, const Preset& preset) {
+  const auto* number = std::get_if<double Preset::*>(&row.field);
+  return number != nullptr && is_absent(row, preset.**number);
+}
+
 double usual_value(const PresetRow& row) {
   const auto* field = std::get_if<double Preset::*>(&row.field);
   const double value = field == nullptr ? 0 : Preset{}.**field;
@@ -289,7 +382,7 @@ Preset nearest_allowed(Preset preset) {
           auto& value = preset.*field;
           using Value = std::decay_t<decltype(value)>;
           if constexpr (!std::is_same_v<Value, std::string>)
-            value = Value(glm::clamp(value, Value(row.min), Value(row.max)));
+            if (!is_absent(row, preset)) value = Value(glm::clamp(value, Value(row.min), Value(row.max)));
         },
         row.field);
   return preset;

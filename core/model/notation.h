@@ -39,8 +39,10 @@ struct Row {
   bool zero_is_off = false;   ///< 0 means never
   Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
   bool only_one_kind = false;
-  EffectSet of_weight = {};  ///< additional effect of a change for the mass on a spring
-  double usual = 1;          ///< a usual value, where the default is 0
+  EffectSet of_weight = {};         ///< additional effect of a change for the mass on a spring
+  double usual = 1;                 ///< a usual value, where the default is 0
+  std::string_view otherwise = {};  ///< the key of the constant that counts while this one is `left_out`; empty: it has
+                                    ///< a value in every preset
 };
 
 using PresetRow = Row<Preset>;
@@ -85,6 +87,13 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 
 /// The default of a number, or what is usual where that is 0.
 double usual_value(const PresetRow& row);
+/// Whether the preset leaves the constant out, so that that of Row::otherwise counts.
+bool is_absent(const PresetRow& row, const Preset& preset);
+/// Whether the value stands for that.
+template <class T>
+bool is_absent(const Row<T>& row, double value) {
+  return !row.otherwise.empty() && value == left_out;
+}
 /// Slider range about three decades round `value` (logarithmic) or round the value (linear), inside the allowed range;
 /// starts at 0 where 0 is allowed.
 struct SliderRange {

@@ -50,6 +50,9 @@ struct Body {
   bool operator==(const Body&) const = default;
 };
 
+/// In place of a constant that a preset leaves out, so that another one's value counts (Row::otherwise).
+inline constexpr double left_out = -1;
+
 struct Preset {
   Kind kind = Kind::cloth;
   std::string name = "Untitled";
@@ -69,6 +72,9 @@ struct Preset {
 
   // forces
   double k_s = 50;
+  double k_warp = left_out;   ///< of springs down the columns, N/m; left out: k_s
+  double k_weft = left_out;   ///< of springs along the rows
+  double k_shear = left_out;  ///< of diagonals
   double k_b = 5;
   double B = 0;      ///< N·m
   double twist = 1;  ///< 0 to 1
@@ -76,8 +82,11 @@ struct Preset {
   double k = 50;  ///< a mass on a spring only
   double g = 9.82;
   glm::dvec3 W{0, 0, 0};
-  double gust = 0;         ///< 0: the wind is steady
-  double gust_period = 2;  ///< s
+  double air_density = 0;   ///< kg/m³; 0: none
+  double C_N = 1, C_T = 0;  ///< of the air across and along a triangle
+  glm::dvec3 u{0, 0, 0};    ///< velocity of the air, m/s
+  double gust = 0;          ///< 0: the wind is steady
+  double gust_period = 2;   ///< s
 
   // tearing
   double F_max = 0;      ///< 0: never

@@ -35,6 +35,9 @@ struct Lanes {
   friend HWY_INLINE Lanes if_greater(Lanes a, Lanes b, Lanes then) {
     return hn::IfThenElseZero(hn::Gt(a.v, b.v), then.v);
   }
+  friend HWY_INLINE Lanes least_of(Lanes a, Lanes b) { return hn::Min(a.v, b.v); }
+  friend HWY_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.v); }
+  friend HWY_INLINE Lanes absolute(Lanes a) { return hn::Abs(a.v); }
   /// a where it is positive (negative), else 0; 0 for NaN.
   friend HWY_INLINE Lanes positive(Lanes a) {
 #if HWY_ARCH_X86

@@ -125,7 +125,7 @@ std::string unsolved(const SolveCounts& solves, std::int64_t steps, const Preset
 std::string precision_too_coarse(const Preset& p) {
   constexpr double much = 0.5;  // of the weight that springs carry: from about here on no step converges
   constexpr double on_earth = 9.82;
-  const double digit = last_digit(p), by_stretch = p.k_s * digit;
+  const double digit = last_digit(p), by_stretch = spring_constants(p).largest() * digit;
   const double force = largest_constant(p) * digit;
   const bool hangs = p.kind == Kind::cloth && p.pins.mode != Pins::Mode::none;
   const double weight = (hangs ? p.rows : 1) * p.m * std::max(std::abs(p.g), on_earth);
@@ -261,8 +261,10 @@ bool springs_too_weak(const Preset& p) {
   constexpr double times = 1000;
   if (p.kind == Kind::one_weight) return p.m * std::abs(p.g) > p.k * times * std::max(p.L, std::abs(p.offset));
   const double particles = double(p.rows) * p.columns, per_column = 3;  // springs of a seam: across, and two diagonals
-  const double pull = particles * (p.m * std::abs(p.g) + 2 * glm::length(p.W) * (1 + p.gust));
-  return pull > p.k_s * times * p.L * per_column * std::min(p.rows, p.columns);
+  const double u = glm::length(p.u) * (1 + p.gust);
+  const double air = force::air.on(p) ? p.air_density / 2 * p.L * p.L * (p.C_N + p.C_T) * u * u : 0;
+  const double pull = particles * (p.m * std::abs(p.g) + 2 * glm::length(p.W) * (1 + p.gust) + air);
+  return pull > spring_constants(p).largest() * times * p.L * per_column * std::min(p.rows, p.columns);
 }
 
 std::string advice_for_weak_springs(const Preset& p) {

@@ -64,7 +64,7 @@ class Judge {
   }
 
   bool always_grows(const Preset& p) const {
-    const double most = any_configuration(p).stiffness, one = p.k_s / p.m;
+    const double most = any_configuration(p).stiffness, one = spring_constants(p).least() / p.m;
     // The end of a spring that pulls, moved along it: the fastest mode is at least as stiff.
     if (p.k_d == 0) return one > 0 && grows({one, 0}, p.dt);
     if (one > 0 && all_grow(p, one, most, {1, 2, 4, 8, 12})) return true;
@@ -99,7 +99,11 @@ std::string_view zone_name(Zone zone, Kind kind) {
 std::vector<ZonedConstant> zoned_constants(const Preset& p) {
   std::vector<std::string_view> keys{"dt"};
   for (const Force* force : force::all)
-    if (force->constant != nullptr) keys.push_back(force->constant(p));
+    if (force->constant != nullptr) {
+      keys.push_back(force->constant(p));
+      for (const PresetRow& row : notation())
+        if (row.otherwise == force->constant(p) && !is_absent(row, p)) keys.push_back(row.key);
+    }
   keys.insert(keys.end(), {"k_d", "m", "L"});
   std::vector<ZonedConstant> all;
   for (const std::string_view key : keys)

@@ -53,9 +53,9 @@ double exact_strain(const Preset& preset, const State& state) {
   implicit::StiffStage stage;
   implicit::Crew alone;
   SolveCounts counts;
-  stage.solve(implicit::StiffTask<double>{preset, lattice, tears, fixed, preset.dt, x.row(0), v.row(0), x.row(0),
-                                          end.row(0), x.pitch() / 3, [] { return false; }, [](double) { return false; },
-                                          [](double) {}, alone, 1e-9},
+  stage.solve(implicit::StiffTask<double>{preset, lattice, tears, fixed, preset.dt, x.row(0), v.row(0), nullptr,
+                                          x.row(0), end.row(0), x.pitch() / 3, [] { return false; },
+                                          [](double) { return false; }, [](double) {}, alone, 1e-9},
               counts);
   for (std::size_t n = 0; n < end.all().size(); ++n) end.all()[n] = x.all()[n] + preset.dt * end.all()[n];
   return largest_strain(end, lattice, preset.L);

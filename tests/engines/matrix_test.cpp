@@ -22,9 +22,9 @@ using test::Random;
 constexpr std::uint64_t seed = 20;
 constexpr int long_run = 500;  // pairs
 
-constexpr std::array features{"bending",  "damping",           "wind",    "gusts",     "pins",     "sphere",
-                              "plane",    "tearing",           "hand",    "F_release", "cuts",     "a pin",
-                              "a change", "a body that moves", "stretch", "speed",     "explosion"};
+constexpr std::array features{"bending", "damping", "wind",      "gusts", "pins",   "sphere",   "plane",
+                              "tearing", "hand",    "F_release", "cuts",  "a pin",  "a change", "a body that moves",
+                              "stretch", "speed",   "explosion", "air",   "threads"};
 
 std::vector<std::string> opencl_methods() {
   std::vector<std::string> methods;
@@ -160,6 +160,8 @@ class Scene {
     p.tilt_deg = random("tilt").uniform(0, 90);
     p.k_b = has("bending") ? 5 : 0, p.k_d = has("damping") ? 0.002 : 0;
     if (has("wind")) p.W = {0.001, 0.0005, 0.002};
+    if (has("threads")) p.k_warp = 70, p.k_shear = 5;
+    if (has("air") && !is_implicit(scheme(p.integrator))) p.air_density = 1.2, p.C_T = 0.1, p.u = {1, 0.5, -3};
     if (has("gusts")) p.gust = 0.5, p.gust_period = 0.03;
     p.pins.mode = has("pins") ? Pins::Mode(1 + random("pins of").below(5)) : Pins::Mode::none;
     if (has("stretch")) p.initial_stretch = random("stretched by").uniform(0.8, 1.2);

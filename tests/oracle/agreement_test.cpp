@@ -66,6 +66,17 @@ std::vector<Scene> motion_scenes() {
        [](Preset& p) {
          p.W = {0, 4e-4, 5e-3}, p.pins.mode = Pins::Mode::left_column;
        }},
+      {"air, wind and gravity", 7, 6,
+       [](Preset& p) {
+         p.air_density = 1.2, p.C_N = 1.2, p.C_T = 0.1, p.u = {3, 1, -4}, p.W = {0, 0, 1e-3};
+       }},
+      {"falling through still air", 5, 9,
+       [](Preset& p) {
+         p.air_density = 1.2, p.C_T = 0.3, p.v_0 = {1, -2, 0.5}, p.pins.mode = Pins::Mode::none;
+       }},
+      {"warp, weft and diagonals of their own", 9, 8,
+       [](Preset& p) { p.k_warp = 90, p.k_weft = 30, p.k_shear = 4, p.initial_stretch = 1.05; }},
+      {"no diagonals", 6, 9, [](Preset& p) { p.k_shear = 0; }},
       {"taut", 9, 8, [](Preset& p) { p.initial_stretch = 1.1; }},
       {"slack", 9, 8, [](Preset& p) { p.initial_stretch = 0.8; }},
       {"undamped", 9, 8, [](Preset& p) { p.k_d = 0; }},
@@ -211,6 +222,7 @@ TEST_CASE("tearing agrees with the oracle, spring for spring") {
     preset.initial_stretch = 1.02;
     preset.F_max = 0.1;
     preset.k_b = 3;
+    preset.k_weft = 70, preset.k_shear = 35;
     const State state = test::crumpled(preset, 3, 0.15, 0.5);
     Simulation simulation(preset);
     oracle::Cloth cloth(preset);

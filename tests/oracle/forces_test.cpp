@@ -11,6 +11,8 @@ namespace tyglab::forces_test {
 Preset windy(int rows, int columns, const std::string& integrator, Precision precision = Precision::double_) {
   Preset preset = test::cloth(rows, columns, integrator);
   preset.W = {0.02, -0.01, 0.03};
+  preset.air_density = 1.2, preset.C_N = 1.1, preset.C_T = 0.2, preset.u = {2, 0.3, -4};
+  preset.k_weft = 70, preset.k_shear = 9;
   preset.k_d = 0.01;
   preset.precision = precision;
   return preset;
@@ -22,8 +24,9 @@ void check_forces(const ParticleReadout& got, const oracle::Forces& wanted, doub
   CHECK(glm::length(got["F_d"] - wanted.F_d) <= tolerance);
   CHECK(glm::length(got["F_g"] - wanted.F_g) <= tolerance);
   CHECK(glm::length(got["F_wind"] - wanted.F_wind) <= tolerance);
+  CHECK(glm::length(got["F_air"] - wanted.F_air) <= tolerance);
   CHECK(glm::length(got["F_int"] - (wanted.F_s + wanted.F_b + wanted.F_d)) <= tolerance);
-  CHECK(glm::length(got["F_ext"] - (wanted.F_g + wanted.F_wind)) <= tolerance);
+  CHECK(glm::length(got["F_ext"] - (wanted.F_g + wanted.F_wind + wanted.F_air)) <= tolerance);
   CHECK(glm::length(got["F"] - wanted.F()) <= tolerance);
 }
 

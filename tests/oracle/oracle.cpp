@@ -94,7 +94,7 @@ void Cloth::start() {
   if (held_ >= 0) particles_[held_].v = hand_;
   full_step_.clear();
   for (const Particle& particle : particles_) full_step_.push_back(particle.v);
-  const auto blowing = wind();
+  const auto blowing = outer();
   for (int i = 0; i < p_.rows; ++i) {
     for (int j = 0; j < p_.columns; ++j) {
       at(i, j).d = p_.dt * at(i, j).v - p_.dt * p_.dt / 2 * acceleration(i, j, blowing);
@@ -150,6 +150,11 @@ void Cloth::pin() {
   }
 }
 
+double Cloth::constant(const Offset& to) const {
+  const double own = to.di == 0 ? p_.k_weft : to.dj == 0 ? p_.k_warp : p_.k_shear;
+  return own < 0 ? p_.k_s : own;
+}
+
 Forces Cloth::gather(int i, int j) const {
   const Particle& self = at(i, j);
   Forces forces;
@@ -159,8 +164,8 @@ Forces Cloth::gather(int i, int j) const {
     const double rest = ring[k].di != 0 && ring[k].dj != 0 ? std::sqrt(2.0) * p_.L : p_.L;
     const Vec x_ij = other.x - self.x;  // (2.4)
     const double length = glm::length(x_ij);
-    if (length >= rest) forces.F_s += p_.k_s * (length - rest) * x_ij / length;  // (2.5)
-    forces.F_d += -p_.k_d * (self.v - other.v);                                  // (2.6)
+    if (length >= rest) forces.F_s += constant(ring[k]) * (length - rest) * x_ij / length;  // (2.5)
+    forces.F_d += -p_.k_d * (self.v - other.v);                                             // (2.6)
   }
   for (const int k : {1, 3, 4, 6}) {  // up, left, right, down
     if (!self.whole[k] || !at(i + ring[k].di, j + ring[k].dj).whole[k]) continue;
@@ -173,17 +178,26 @@ Forces Cloth::gather(int i, int j) const {
   return forces;
 }
 
-void Cloth::blow(std::vector<Vec>& force, const std::array<Offset, 3>& corners) const {
+void Cloth::blow(Outer& force, const std::array<Offset, 3>& corners) const {
   const auto& [a, b, c] = corners;
   if (!whole(a.di, a.dj, b.di, b.dj) || !whole(b.di, b.dj, c.di, c.dj) || !whole(c.di, c.dj, a.di, a.dj)) return;
   const Vec area = glm::cross(at(b.di, b.dj).x - at(a.di, a.dj).x, at(c.di, c.dj).x - at(a.di, a.dj).x);
   if (area == Vec(0)) return;
   const Vec N = glm::normalize(area);
-  for (const Offset& corner : corners) force[index(corner.di, corner.dj)] += N * glm::dot(N, p_.W) / 3.0;  // (2.16)
+  const Vec u = p_.u - (at(a.di, a.dj).v + at(b.di, b.dj).v + at(c.di, c.dj).v) / 3.0;  // of the air past the triangle
+  const double speed = glm::length(u), A = glm::length(area) / 2, head_on = glm::dot(u, N);
+  const Vec drag =
+      p_.air_density / 2 * A * (p_.C_N * std::abs(head_on) * head_on * N + p_.C_T * speed * (u - head_on * N));
+  for (const Offset& corner : corners) {
+    const int p = index(corner.di, corner.dj);
+    force.wind[p] += N * glm::dot(N, p_.W) / 3.0;  // (2.16)
+    force.air[p] += drag / 3.0;
+  }
 }
 
-std::vector<Vec> Cloth::wind() const {
-  std::vector<Vec> force(particles_.size(), Vec(0));
+Cloth::Outer Cloth::outer() const {
+  const std::vector<Vec> none(particles_.size(), Vec(0));
+  Outer force{none, none};
   for (int i = 0; i + 1 < p_.rows; ++i) {
     for (int j = 0; j + 1 < p_.columns; ++j) {
       const Offset top_left{i, j}, top_right{i, j + 1}, bottom_left{i + 1, j}, bottom_right{i + 1, j + 1};
@@ -201,19 +215,20 @@ std::vector<Vec> Cloth::wind() const {
 
 Forces Cloth::forces(int i, int j) const {
   Forces forces = gather(i, j);
-  forces.F_wind = wind()[index(i, j)];
+  const Outer blowing = outer();
+  forces.F_wind = blowing.wind[index(i, j)], forces.F_air = blowing.air[index(i, j)];
   return forces;
 }
 
-Vec Cloth::acceleration(int i, int j, const std::vector<Vec>& wind) const {
+Vec Cloth::acceleration(int i, int j, const Outer& blowing) const {
   if (at(i, j).pinned || is_held(i, j)) return Vec(0);
-  return (gather(i, j).F() + wind[index(i, j)]) / p_.m;
+  return (gather(i, j).F() + blowing.wind[index(i, j)] + blowing.air[index(i, j)]) / p_.m;
 }
 
 Vec Cloth::velocity(int i, int j) const {
   if (!full_step_.empty()) return full_step_[index(i, j)];
   if (p_.integrator != "verlet") return at(i, j).v;
-  return at(i, j).v + p_.dt / 2 * acceleration(i, j, wind());
+  return at(i, j).v + p_.dt / 2 * acceleration(i, j, outer());
 }
 
 void Cloth::edit(const std::function<void()>& what) {
@@ -232,7 +247,7 @@ void Cloth::step() {
     particles_[held_].v = hand_;
     particles_[held_].d = p_.dt * hand_;
   }
-  const auto blowing = wind();
+  const auto blowing = outer();
   std::vector<Vec> a;
   for (int i = 0; i < p_.rows; ++i) {
     for (int j = 0; j < p_.columns; ++j) a.push_back(acceleration(i, j, blowing));
@@ -323,7 +338,7 @@ void Cloth::tear() {
         const int i2 = i + ring[k].di, j2 = j + ring[k].dj;
         if (!at(i, j).whole[k] || guarded(i, j) || guarded(i2, j2)) continue;
         const double rest = ring[k].di != 0 && ring[k].dj != 0 ? std::sqrt(2.0) * p_.L : p_.L;
-        if (p_.k_s * (glm::length(at(i2, j2).x - at(i, j).x) - rest) > p_.F_max) break_spring(i, j, k);
+        if (constant(ring[k]) * (glm::length(at(i2, j2).x - at(i, j).x) - rest) > p_.F_max) break_spring(i, j, k);
       }
     }
   }

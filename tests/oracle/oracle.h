@@ -25,8 +25,8 @@ struct Particle {
 
 /// The forces on one particle, N (table B.1). F_hand is what the hand adds; the oracle only measures it.
 struct Forces {
-  Vec F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0};
-  Vec F() const { return F_s + F_b + F_d + F_g + F_wind; }
+  Vec F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0}, F_air{0};
+  Vec F() const { return F_s + F_b + F_d + F_g + F_wind + F_air; }
 };
 
 struct Offset {
@@ -73,9 +73,14 @@ class Cloth {
   void break_spring(int i, int j, int k);
   void place();
   void pin();
-  std::vector<Vec> wind() const;
-  void blow(std::vector<Vec>& force, const std::array<Offset, 3>& corners) const;
-  Vec acceleration(int i, int j, const std::vector<Vec>& wind) const;
+  /// The forces on all particles by triangles.
+  struct Outer {
+    std::vector<Vec> wind, air;
+  };
+  Outer outer() const;
+  void blow(Outer& force, const std::array<Offset, 3>& corners) const;
+  double constant(const Offset& to) const;
+  Vec acceleration(int i, int j, const Outer& blowing) const;
   void move(Particle& particle, Vec a) const;
   void collide(Vec old, Vec& x, Vec& v) const;
   void tear();

@@ -213,7 +213,7 @@ class Simulations(unittest.TestCase):
         simulation.enable_ledger()
         simulation.run(0.2)
         ledger = simulation.ledger
-        works = sum(ledger[k] for k in ("damping", "contact", "tearing", "wind", "hand", "edits"))
+        works = sum(ledger[k] for k in ("damping", "contact", "tearing", "wind", "air", "hand", "edits"))
         self.assertAlmostEqual(ledger["total"], ledger["start"] + works + ledger["unexplained"], places=12)
 
     def test_solves_are_counted_and_those_that_missed(self):

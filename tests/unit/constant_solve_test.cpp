@@ -16,6 +16,10 @@ namespace tyglab::constant_solve_test {
 
 using cpu::SpringWeights;
 
+SpringWeights alike(double stretch, double bending) {
+  return {{stretch, stretch, stretch, bending}};
+}
+
 /// A lattice with tears and fixed particles, and A as a dense matrix over all particles.
 struct Scene {
   Scene(int rows, int columns, SpringWeights weights) : tears({rows, columns}) {
@@ -36,7 +40,7 @@ struct Scene {
           const Direction& to = directions[std::size_t(d)];
           if (!cloth.lattice.has_spring(d, i, j) || !tears.whole(d, i, j)) continue;
           const auto p = std::size_t(i * columns + j), q = std::size_t((i + to.di) * columns + j + to.dj);
-          const double weight = to.bending ? weights.bending : weights.stretch;
+          const double weight = weights.springs.of(to);
           matrix[p][p] += weight, matrix[q][q] += weight, matrix[p][q] -= weight, matrix[q][p] -= weight;
         }
   }
@@ -105,11 +109,12 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 
 TEST_CASE("a solution is that of elimination, with tears, fixed particles and widths of all kinds") {
   for (const auto& [rows, columns] : {std::pair{7, 9}, {5, 16}, {12, 3}, {9, 1}, {2, 17}})
-    for (const SpringWeights weights : {SpringWeights{0.01, 0}, {3, 0}, {50, 7}, {0, 2}}) {
+    for (const SpringWeights weights :
+         {alike(0.01, 0), alike(3, 0), alike(50, 7), alike(0, 2), SpringWeights{{3, 40, 0.5, 2}}, {{0, 2, 9, 0}}}) {
       CAPTURE(rows);
       CAPTURE(columns);
-      CAPTURE(weights.stretch);
-      CAPTURE(weights.bending);
+      CAPTURE(weights.springs.weft);
+      CAPTURE(weights.springs.bend);
       const Scene scene(rows, columns, weights);
       const auto fine = solved<double>(scene, weights, 1e-12);
       CHECK(distance(fine.s, scene.eliminate(fine.r)) < 2e-11);
@@ -120,10 +125,10 @@ TEST_CASE("a solution is that of elimination, with tears, fixed particles and wi
 
 TEST_CASE("where products do not suffice, a factor finds the solution of elimination") {
   for (const auto& [rows, columns] : {std::pair{7, 9}, {5, 16}, {12, 3}, {9, 1}, {2, 17}})
-    for (const SpringWeights weights : {SpringWeights{1e5, 0}, {1e8, 1e4}}) {
+    for (const SpringWeights weights : {alike(1e5, 0), alike(1e8, 1e4), SpringWeights{{1e5, 1e8, 0, 3}}}) {
       CAPTURE(rows);
       CAPTURE(columns);
-      CAPTURE(weights.stretch);
+      CAPTURE(weights.springs.weft);
       const Scene scene(rows, columns, weights);
       const auto fine = solved<double>(scene, weights, 1e-12, cpu::ConstantSolver<double>::Beyond::factorizes);
       CHECK(fine.products == 0);
@@ -137,7 +142,7 @@ TEST_CASE("where products do not suffice, a factor finds the solution of elimina
 
 TEST_CASE("however few products: what is left lies on the side on which a step of damped_verlet stays stable") {
   // r - A s = p(A) r with p the square of a polynomial: no mode is made larger than it is.
-  const SpringWeights weights{1e3, 0};
+  const SpringWeights weights = alike(1e3, 0);
   const Scene scene(7, 9, weights);
   for (const double tolerance : {0.5, 0.1, 1e-3}) {
     CAPTURE(tolerance);

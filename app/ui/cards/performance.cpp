@@ -50,6 +50,7 @@ constexpr Feature features[] = {
     {"rigidity", "Constants of springs that B and twist change: on if B > 0.", nullptr, Spent::step},
     {"damping", "On if k_d > 0.", nullptr, Spent::step},
     {"wind", "On if W is not 0.", nullptr, Spent::step},
+    {"air", "Drag and lift: on if ρ_air > 0.", nullptr, Spent::step},
     {"bodies", "Collision with spheres and planes.", nullptr, Spent::step},
     {"tearing", "On if F_max > 0: springs are measured when one may be long enough to tear.", nullptr, Spent::step},
     {"pins", "Particles that never move.", nullptr, Spent::step},

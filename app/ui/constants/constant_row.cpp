@@ -22,6 +22,8 @@ struct Line {
   Scale scale;
   Effect effect;
   bool zero_is_off, integer = false;
+  std::string_view otherwise = {};  ///< whose value it has while it is absent
+  double other_value = none;
   int components = 1;
   double value[3]{}, saved[3]{none, none, none}, standard[3]{};
   std::function<void(const double* value, unsigned gesture)> set;
@@ -42,6 +44,7 @@ Line describe(const Row<T>& row) {
           .scale = row.scale,
           .effect = row.effect,
           .zero_is_off = row.zero_is_off,
+          .otherwise = row.otherwise,
           .set = {},
           .differing = {}};
 }
@@ -67,12 +70,21 @@ void classify(const FieldOf<T>& field, Line& line) {
   line.components = std::holds_alternative<glm::dvec3 T::*>(field) ? 3 : 1;
 }
 
+bool is_absent(const Line& line, double value) {
+  return !line.otherwise.empty() && value == left_out;
+}
+/// What the constant comes to.
+double effective(const Line& line, double value) {
+  return is_absent(line, value) ? line.other_value : value;
+}
+
 /// The slider spans what lies round the preset's value, and whatever the value has been since it was last that.
 SliderScale scale_of(Ui& ui, const Line& line, int k) {
   PresetRow limits{};
   limits.field = &Preset::offset;
   limits.min = line.min, limits.max = line.max, limits.scale = line.scale;
-  double center = std::isnan(line.saved[k]) ? line.value[k] : line.saved[k];
+  const double value = effective(line, line.value[k]), saved = effective(line, line.saved[k]);
+  double center = std::isnan(saved) ? value : saved;
   if (line.components == 3)
     for (double v : {line.saved[0], line.saved[1], line.saved[2]})
       if (std::abs(v) > std::abs(center)) center = v;
@@ -81,14 +93,13 @@ SliderScale scale_of(Ui& ui, const Line& line, int k) {
   if (std::isnan(line.saved[k])) return scale;  // it has no preset to go back to
   auto& reaches = ui.slider.reaches;
   const std::string name = line.key + "." + std::to_string(k);
-  const double value = line.value[k];
   auto known = reaches.find(name);
-  if (known != reaches.end() && (known->second.preset != line.saved[k] || value == line.saved[k]))
+  if (known != reaches.end() && (known->second.preset != saved || value == saved))
     reaches.erase(known), known = reaches.end();
   if (known == reaches.end()) {
     const SliderScale needed = grown(scale, limits, value);
     if (needed.min == scale.min && needed.max == scale.max && needed.low == scale.low) return scale;
-    known = reaches.emplace(name, SliderReach{line.saved[k], value, value}).first;
+    known = reaches.emplace(name, SliderReach{saved, value, value}).first;
   }
   SliderReach& reach = known->second;
   reach.least = std::min(reach.least, value), reach.most = std::max(reach.most, value);
@@ -96,6 +107,7 @@ SliderScale scale_of(Ui& ui, const Line& line, int k) {
 }
 
 std::string value_text(const Line& line, double value) {
+  if (is_absent(line, value)) return "as " + std::string(line.otherwise);
   return line.zero_is_off && value == 0 ? std::string("off") : short_number(value);
 }
 
@@ -120,9 +132,9 @@ void take(Ui& ui, const Line& line, int k, const SliderResult& result, unsigned 
   double next[3] = {line.value[0], line.value[1], line.value[2]};
   if (result.reset && !std::isnan(line.saved[k])) {
     next[k] = line.saved[k];
-  } else if (!due || result.value == line.value[k]) {
+  } else if (!due || result.value == effective(line, line.value[k])) {
     return;
-  } else if (!in_range(ui, line, result.value, line.value[k])) {
+  } else if (!in_range(ui, line, result.value, effective(line, line.value[k]))) {
     if (result.typed != 0) type_again(ui.slider, result.typed);
     return;
   } else {
@@ -145,6 +157,7 @@ void row_tooltip(Ui& ui, const Line& line) {
   wrapped(ui, line.help, c.text);
   std::string facts = power_number(line.min) + " to " + quantity(line.max, line.unit);
   if (line.zero_is_off) facts += ", 0 is off";
+  if (!line.otherwise.empty()) facts += ", or absent: as " + std::string(line.otherwise);
   if (!line.equation.empty()) facts += " · " + equation_of_report(line.equation);
   wrapped(ui, facts, c.quiet);
   if (const auto& limits = ui.session.studies.stability.limits())
@@ -175,9 +188,10 @@ void copy_items(Ui& ui, const Line& line) {
     return;
   const auto add = [&](double value) { ui.session.request(request::AddCopy{{line.differing(rounded(value, 6))}}); };
   ImGui::Separator();
+  const double now = effective(line, line.value[0]);
   for (const double factor : {0.5, 2.0}) {
-    const double value = line.integer ? std::round(factor * line.value[0]) : factor * line.value[0];
-    if (value == line.value[0] || value < line.min || value > line.max) continue;
+    const double value = line.integer ? std::round(factor * now) : factor * now;
+    if (value == now || value < line.min || value > line.max) continue;
     if (ImGui::MenuItem(("Add a copy with " + line.key + " = " + quantity(value, line.unit)).c_str())) add(value);
     report_control(ui, factor < 1 ? "copy_half" : "copy_double");
   }
@@ -187,8 +201,7 @@ void copy_items(Ui& ui, const Line& line) {
   ImGui::SetNextItemWidth(ui.theme.px(88));
   char typed[40] = "";
   if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
-    if (const auto value = typed_number(typed, line.unit); value && in_range(ui, line, *value, line.value[0]))
-      add(*value);
+    if (const auto value = typed_number(typed, line.unit); value && in_range(ui, line, *value, now)) add(*value);
     if (*typed != 0 && !typed_number(typed, line.unit))
       ui.session.messages.error(std::string("“") + typed + "” is not a number, so no copy was added.");
     ImGui::CloseCurrentPopup();
@@ -275,7 +288,8 @@ void draw_line(Ui& ui, const Line& line) {
     take_wanted_focus(ui, line.key);
     const SliderScale scale = scale_of(ui, line, 0);
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const SliderResult slid = slider(ui, scale, line.value[0], slider_width, columns.height);
+    const double value = effective(line, line.value[0]);
+    const SliderResult slid = slider(ui, scale, value, slider_width, columns.height);
     draw_zones(ui, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
     if (ui.controls) report_control(ui, line.key + ".slider");
     take(ui, line, 0, slid, gesture);
@@ -283,8 +297,7 @@ void draw_line(Ui& ui, const Line& line) {
     const bool dragging = ui.slider.dragged == gesture;
     const double shown = dragging ? ui.slider.value : line.value[0];
     take(ui, line, 0,
-         value_cell(ui, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.symbol,
-                    line.unit),
+         value_cell(ui, "value", value, value_text(line, shown), columns.value, columns.height, line.symbol, line.unit),
          0);
     if (ui.controls) report_control(ui, line.key + ".value");
   }
@@ -321,6 +334,8 @@ void constant_row(Ui& ui, const PresetRow& row) {
   read(row.field, question ? question->more : ui.session.requested_preset(), line.value);
   read(row.field, ui.session.document.saved, line.saved);
   read(row.field, Preset{}, line.standard);
+  if (const PresetRow* other = line.otherwise.empty() ? nullptr : find_row(line.otherwise))
+    read(other->field, ui.session.requested_preset(), &line.other_value);
   line.set = [&](const double* value, unsigned gesture) {
     Preset next = question ? question->more : ui.session.requested_preset();
     write(row.field, next, value);

@@ -14,6 +14,7 @@
 #include "app/ui/kit/widgets.h"
 #include "core/forces/contact.h"
 #include "core/integrators/scheme.h"
+#include "core/model/fabric.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 #include "core/theory/advice.h"
@@ -180,6 +181,50 @@ void pins_row(Ui& ui) {
   });
 }
 
+std::string fabric_words(const Fabric& fabric, double g) {
+  return std::string(fabric.measured ? "Measured" : "Estimated") + ": " + quantity(1e3 * fabric.mass, "g/m²", 3) +
+         ", B " + quantity(1e6 * fabric.B, "µN·m", 3) + ", warp and weft " + short_number(fabric.warp, 3) + " and " +
+         quantity(fabric.weft, "N/m", 3) + ", shear " + quantity(fabric.shear, "N/m", 3) + "; drapes over lengths of " +
+         quantity(1e3 * drape_length(fabric.B, fabric.mass, g), "mm", 2) + ".";
+}
+
+/// The choice of a fabric, and what the present constants come to in the units in which fabrics are sold and measured.
+void fabric_row(Ui& ui) {
+  const Preset& now = ui.session.requested_preset();
+  const auto chosen =
+      std::find_if(fabrics().begin(), fabrics().end(), [&](const Fabric& fabric) { return is_fabric(now, fabric); });
+  labeled_row(ui, "fabric", [&](float width) {
+    const std::string shown(chosen == fabrics().end() ? "choose" : chosen->name);
+    if (!begin_combo(ui, "##fabric", shown.c_str(), width)) {
+      tooltip(ui, gui::item_id(),
+              chosen == fabrics().end() ? "Sets m, B, k_warp, k_weft and k_shear to those of a fabric, and k_b to 0."
+                                        : fabric_words(*chosen, now.g),
+              std::string(chosen == fabrics().end() ? "" : chosen->source));
+      return;
+    }
+    for (const Fabric& fabric : fabrics()) {
+      const bool selected = ImGui::Selectable(std::string(fabric.name).c_str(), is_fabric(now, fabric));
+      report_control(ui, fabric.key);
+      tooltip(ui, gui::item_id(), fabric_words(fabric, now.g), std::string(fabric.source));
+      if (selected) ui.session.propose(with_fabric(now, fabric));
+    }
+    end_combo();
+  });
+  const double mass = now.m / (now.L * now.L), drape = drape_length(now.B, mass, now.g);
+  std::string words = quantity(1e3 * mass, "g/m²", 3) + " · B " + quantity(1e6 * now.B, "µN·m", 3);
+  if (std::isfinite(drape) && drape > 0) words += " · drape " + quantity(1e3 * drape, "mm", 2);
+  labeled_row(ui, "units", [&](float width) {
+    draw_on_baseline(
+        *ImGui::GetWindowDrawList(), *ui.fonts.small,
+        {ImGui::GetCursorScreenPos().x, baseline_at(ui.fonts, ImGui::GetCursorScreenPos().y + ui.theme.px(15))},
+        ui.theme.colors.text, fitted(*ui.fonts.small, words, width));
+    ImGui::Dummy({width, ui.theme.px(30)});
+    tooltip(ui, gui::item_id(),
+            "Mass per area m/L², bending rigidity, and the drape length (B/ρg)^⅓ over which the cloth bends by its own "
+            "weight. A spacing L well below it shows folds as they are; a finer cloth keeps all three.");
+  });
+}
+
 /// How long a step may take. A lab's result must not depend on that.
 void step_limit_row(Ui& ui) {
   const Preset& preset = ui.session.requested_preset();
@@ -247,6 +292,7 @@ bool applies(const PresetRow& row, const Preset& preset) {
   if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
   if (row.key == "iterations") return iterates(scheme(preset.integrator));
   if (row.key == "gust_period" && !gusts(preset)) return false;
+  if ((row.key == "u" || row.key == "C_N" || row.key == "C_T") && preset.air_density == 0) return false;
   return !row.only_one_kind || row.only == preset.kind;
 }
 
@@ -275,6 +321,7 @@ void constants_sections(Ui& ui) {
     if (name == "Cloth" && cloth) body_sections(ui);
     if (!section(ui, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
     if (name == "Integrator") integrator_row(ui);
+    if (name == "Fabric") fabric_row(ui);
     rows(ui, wanted);
     if (name == "Integrator") step_limit_row(ui), stability_row(ui);
     if (name == "Cloth" && cloth) resolution_row(ui), pins_row(ui);

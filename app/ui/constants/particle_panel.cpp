@@ -37,7 +37,7 @@ bool has_arrow(const Ui& ui, std::string_view key) {
 /// 10⁻¹⁶ of what is added up, so what physics leaves is far above it.
 double noise_of(const Preset& preset, std::string_view key) {
   constexpr double part = 1e-12;
-  const double k = preset.kind == Kind::one_weight ? preset.k : preset.k_s;
+  const double k = preset.kind == Kind::one_weight ? preset.k : spring_constants(preset).largest();
   const double force = preset.g != 0 ? preset.m * std::abs(preset.g) : k * preset.L;
   if (key == "x") return part * preset.L;
   if (key == "v") return part * std::sqrt(force / preset.m * preset.L);

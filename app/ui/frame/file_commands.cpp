@@ -33,6 +33,7 @@ void copy_as_options(Ui& ui) {
   };
   for (const PresetRow& row : notation()) {
     if (row.effect == Effect::view || (row.only_one_kind && row.only != preset.kind)) continue;
+    if (is_absent(row, preset)) continue;
     if (const auto* number = std::get_if<double Preset::*>(&row.field)) add(row.key, shortest_number(preset.**number));
     if (const auto* count = std::get_if<int Preset::*>(&row.field)) add(row.key, std::to_string(preset.**count));
     if (const auto* word = std::get_if<std::string Preset::*>(&row.field)) add(row.key, preset.**word);

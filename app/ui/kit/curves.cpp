@@ -9,6 +9,7 @@ CurveStyle curve_style(const Tokens& c, std::string_view key) {
   if (key == "F_d") return {c.magenta, LineStyle::dotted, 2.2f};
   if (key == "F_g") return {c.yellow, LineStyle::long_dash, 1.8f};
   if (key == "F_wind") return {c.vermilion, LineStyle::dash_dot_dot, 1.8f};
+  if (key == "F_air") return {c.vermilion, LineStyle::sparse_dots, 2.2f};
   if (key == "F_int") return {c.sky, LineStyle::dash_dot, 1.8f};
   if (key == "F_ext") return {c.orange, LineStyle::sparse_dots, 2.4f};
   if (key == "v") return {c.vermilion, LineStyle::long_dash, 1.8f};

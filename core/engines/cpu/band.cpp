@@ -80,14 +80,34 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   t.L = cloth_.preset.L;
   const bool weight = cloth_.preset.kind == Kind::one_weight;
   const SpringConstants springs = spring_constants(cloth_.preset);
-  if (!s.external) t.stretch = weight ? cloth_.preset.k : springs.stretch, t.bend = springs.bend, t.k_d = s.k_d;
-  features_ = s.external ? cloth_.features & unsigned(wind) : cloth_.features;
-  t.weight = cloth_.preset.m * cloth_.preset.g;
+  if (!s.external) {
+    t.weft = weight ? cloth_.preset.k : springs.weft, t.warp = springs.warp, t.shear = springs.shear;
+    t.bend = springs.bend, t.k_d = s.k_d;
+  }
+  const bool air_alone = s.air == ResolvedSweep::Air::alone;
+  features_ = air_alone ? unsigned(air) : s.external ? cloth_.features & unsigned(wind | air) : cloth_.features;
+  if (s.air == ResolvedSweep::Air::none) features_ &= ~unsigned(air);
+  if (air_alone)
+    t.weft = t.warp = t.shear = t.bend = t.k_d = 0;
+  else
+    t.weight = cloth_.preset.m * cloth_.preset.g;
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
+  if ((features_ & air) != 0) take_air(t, s.per_velocity);
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
   t.dt_v = cloth_.dt / cloth_.velocity_scale();
   t.max_displacement = max_displacement_.data();
   return t;
+}
+
+/// The constants of F_air (air.cpp) for velocities that are to be multiplied by `per`.
+template <class R, unsigned Present>
+void Band<R, Present>::take_air(PairTask<R>& t, double per) {
+  const Preset& p = cloth_.preset;
+  // ½ρA, where twice the area is |n|, on each of three corners.
+  const double corner = per * per * p.air_density / 12;
+  for (int c = 0; c < 3; ++c) t.u[c] = p.u[c] / per;
+  t.air_across = corner * p.C_N, t.air_along = corner * p.C_T;
+  t.air_most = per * most_air_damping(p, cloth_.dt);
 }
 
 template <class R, unsigned Present>
@@ -130,7 +150,7 @@ void Band<R, Present>::forces_on_pair(PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
-    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.stretch, v, t.k_d) - t.weight);
+    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.weft, v, t.k_d) - t.weight);
     return;
   }
   t.update = update;

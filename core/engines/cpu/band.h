@@ -47,13 +47,16 @@ struct ResolvedSweep {
     std::vector<ResolvedTerm> terms;
   };
   int position = 0, velocity = 0;
-  double k_d = 0;  ///< divided by dt where the velocity vector holds displacements
+  double k_d = 0;           ///< divided by dt where the velocity vector holds displacements
+  double per_velocity = 1;  ///< what that vector is multiplied by to be a velocity: 1, or 1/dt
   std::vector<ResolvedAssignment> assignments;
   bool external = false, projects = false;  ///< as in Sweep
-  double solve_dt = 0;                      ///< not 0: an implicit stage over that time is solved first
-  double damps_dt = 0;                      ///< not 0: the damping is solved for over that time
-  std::vector<ResolvedAssignment> before;   ///< made before the solve
-  Update update = Update::force;            ///< by the pair sweep itself; force: assignments follow row by row
+  enum class Air { blows, none, alone };    ///< whether F has that of the air, or nothing else
+  Air air = Air::blows;
+  double solve_dt = 0;                     ///< not 0: an implicit stage over that time is solved first
+  double damps_dt = 0;                     ///< not 0: the damping is solved for over that time
+  std::vector<ResolvedAssignment> before;  ///< made before the solve
+  Update update = Update::force;           ///< by the pair sweep itself; force: assignments follow row by row
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other kinds
   const ResolvedEstimate* estimate = nullptr;         ///< measured for each row, unless null
 };
@@ -61,7 +64,9 @@ struct ResolvedSweep {
 /// The features of the pair sweep that a scene needs.
 inline unsigned features_of(const Preset& preset) {
   return (force::bend.on(preset) ? bending : 0u) | (force::damping.on(preset) ? damping : 0u) |
-         (force::wind.on(preset) ? wind : 0u) | (LinearSprings<double>::exist(preset) ? linear : 0u);
+         (force::wind.on(preset) ? wind : 0u) | (force::air.on(preset) ? air : 0u) |
+         (spring_constants(preset).stretches_alike() ? 0u : threads) |
+         (LinearSprings<double>::exist(preset) ? linear : 0u);
 }
 
 /// What all bands share: the arrays and the scene.
@@ -156,6 +161,7 @@ class Band {
     Field x, v;
   };
   PairTask<R> task(const ResolvedSweep& sweep);
+  void take_air(PairTask<R>& task, double per_velocity);
   void point(PairTask<R>& task, const Tears& tears, int i, int x_row, Field& x, Field& v);
   void point_at_pair(PairTask<R>& task, const ResolvedSweep& sweep, const Tears& tears, int i);
   /// How many of the next `most` rows there are.

@@ -21,8 +21,9 @@ constexpr bool colors_differ(int colors) {
 }
 static_assert(colors_differ(BlockDescent<float>::colors));
 /// Of a BlockRow's link in that direction.
-int rest_of(const Direction& to) {
-  return to.bending ? 2 : to.di != 0 && to.dj != 0 ? 1 : 0;
+enum : int { of_weft, of_warp, of_shear, of_bending };
+int kind_of(const Direction& to) {
+  return to.bending ? of_bending : to.di == 0 ? of_weft : to.dj == 0 ? of_warp : of_shear;
 }
 
 }  // namespace
@@ -32,8 +33,9 @@ void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double 
   const Preset& p = cloth.preset;
   assert(h > 0 && p.m > 0 && p.L > 0);
   assert(rows_ == 0 || (rows_ == cloth.lattice.rows && columns_ == cloth.lattice.columns));
-  const auto [stretch, bend] = spring_constants(p);
-  constants_ = {h * h * stretch / p.m, h * h * bend / p.m, h * p.k_d / p.m, p.L, h * h / p.m};
+  const auto [weft, warp, shear, bend] = spring_constants(p);
+  const auto scaled = [&](double k) { return h * h * k / p.m; };
+  constants_ = {scaled(weft), scaled(warp), scaled(shear), scaled(bend), h * p.k_d / p.m, p.L, h * h / p.m};
   h_ = h, gravity_ = p.g;
   if (rows_ == 0) {
     const int longest = (cloth.lattice.columns + colors - 1) / colors;
@@ -98,7 +100,7 @@ void BlockDescent<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
         if (!cloth.lattice.has_spring(d, owner_i, owner_j) || !tears.whole(d, owner_i, owner_j)) return;
         int& of = piece_of_[std::size_t(to_i) * std::size_t(columns_) + std::size_t(to_j)];
         if (of == of_fixed)
-          held_.push_back({at(to_i, 0, to_j), at(i, 0, j), rest_of(directions[std::size_t(d)]),
+          held_.push_back({at(to_i, 0, to_j), at(i, 0, j), kind_of(directions[std::size_t(d)]),
                            double(cloth.springs.at(d, owner_i, owner_j))});
         if (of == of_none) of = piece, found_.push_back(to_i * columns_ + to_j);
       };
@@ -123,10 +125,13 @@ double BlockDescent<R>::pull_down(const Held& spring, double fallen) const {
     square += d[c] * d[c];
   }
   const double length = std::sqrt(square), L = constants_.L, linear = constants_.linear * spring.linear * d[1];
-  if (spring.rest == 2)
+  if (spring.kind == of_bending)
     return length > 0 && length < 2 * L ? constants_.bend * (2 * L / length - 1) * d[1] - linear : -linear;
-  const double rest = spring.rest == 1 ? std::numbers::sqrt2 * L : L;
-  const double pull = length > rest ? constants_.stretch * (1 - rest / length) * d[1] : 0;
+  const double rest = spring.kind == of_shear ? std::numbers::sqrt2 * L : L;
+  const double k = spring.kind == of_shear  ? constants_.shear
+                   : spring.kind == of_warp ? constants_.warp
+                                            : constants_.weft;
+  const double pull = length > rest ? k * (1 - rest / length) * d[1] : 0;
   return -pull - linear - constants_.damping * moved[1];
 }
 
@@ -192,13 +197,13 @@ void BlockDescent<R>::descend(int i, int part) {
   const std::ptrdiff_t here = std::ptrdiff_t(at(i, 0, part));
   for (int d = 0; d < int(directions.size()); ++d) {
     const Direction& to = directions[std::size_t(d)];
-    const int rest = rest_of(to);
+    const int kind = kind_of(to);
     const std::size_t own = mask_at(i, d, part), others = mask_at(i - to.di, d, part - to.dj);
     const auto linear = [&](std::size_t mask) { return linear_.empty() ? nullptr : linear_.data() + mask; };
-    row.links[std::size_t(2 * d)] = {std::ptrdiff_t(at(i + to.di, 0, part + to.dj)) - here, whole_.data() + own, rest,
+    row.links[std::size_t(2 * d)] = {std::ptrdiff_t(at(i + to.di, 0, part + to.dj)) - here, whole_.data() + own, kind,
                                      linear(own)};
     row.links[std::size_t(2 * d + 1)] = {std::ptrdiff_t(at(i - to.di, 0, part - to.dj)) - here, whole_.data() + others,
-                                         rest, linear(others)};
+                                         kind, linear(others)};
   }
   descend_row(row);
 }

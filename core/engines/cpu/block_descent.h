@@ -53,7 +53,7 @@ class BlockDescent {
   /// A spring from a fixed particle to a free one.
   struct Held {
     std::size_t fixed, free;  ///< where their x stands in c_ and q_
-    int rest;                 ///< as in BlockRow
+    int kind;                 ///< as in BlockRow
     double linear;            ///< constant of LinearSprings
   };
   void make_masks(const Cloth<R>& cloth, const Tears& tears);

@@ -77,8 +77,9 @@ class Blocks {
 
   HWY_INLINE explicit Blocks(const BlockRow<R>& row)
       : row_(row),
-        kinds_{{row.constants.stretch, row.constants.L, false},
-               {row.constants.stretch, row.constants.L * std::numbers::sqrt2, false},
+        kinds_{{row.constants.weft, row.constants.L, false},
+               {row.constants.warp, row.constants.L, false},
+               {row.constants.shear, row.constants.L * std::numbers::sqrt2, false},
                {row.constants.bend, 2 * row.constants.L, true}},
         damping_(L::all(row.constants.damping)),
         linear_(L::all(row.constants.linear)) {}
@@ -109,7 +110,7 @@ class Blocks {
     return {hn::IfThenElse(mask, a.x.v, b.x.v), hn::IfThenElse(mask, a.y.v, b.y.v), hn::IfThenElse(mask, a.z.v, b.z.v)};
   }
   HWY_INLINE void add(System<D>& system, const Link& link, int n, V c, V q) const {
-    const Kind<D>& kind = kinds_[link.rest];
+    const Kind<D>& kind = kinds_[link.kind];
     const L whole = L::load(link.whole + n), k = whole * kind.k;
     const V moved = at(row_.q + n + link.to) - q, d = at(row_.c + n + link.to) - c + moved;
     const L square = dot(d, d), per_length = one_over_root(square), length = square * per_length;
@@ -137,7 +138,7 @@ class Blocks {
   }
   /// By how much the particles' steps raise the energy of their springs to one neighbor.
   HWY_INLINE L change(const Link& link, int n, V c, V q, V step) const {
-    const Kind<D>& kind = kinds_[link.rest];
+    const Kind<D>& kind = kinds_[link.kind];
     const L whole = L::load(link.whole + n), half = L::all(0.5);
     const V moved = at(row_.q + n + link.to) - q, d = at(row_.c + n + link.to) - c + moved, next = d - step;
     const L before = dot(d, d), after = dot(next, next);
@@ -150,7 +151,7 @@ class Blocks {
   }
 
   const BlockRow<R>& row_;
-  const Kind<D> kinds_[3];
+  const Kind<D> kinds_[4];
   const L damping_, linear_;
 };
 

@@ -12,7 +12,7 @@ inline constexpr int links_of_a_particle = 12;
 
 /// Forces and stiffnesses are multiplied by h²/m, those of damping by h/m, so that the mass is 1.
 struct BlockConstants {
-  double stretch, bend, damping;
+  double weft, warp, shear, bend, damping;
   double L;       ///< m
   double linear;  ///< what the constants of LinearSprings are multiplied by
 };
@@ -24,7 +24,7 @@ struct BlockRow {
   struct Link {
     std::ptrdiff_t to;  ///< from a particle's place to its neighbor's, in c and q alike
     const R* whole;     ///< 1 where there is a spring to it, else 0
-    int rest;           ///< 0: L, 1: √2 L, 2: a bending spring
+    int kind;           ///< 0: weft, 1: warp, 2: a diagonal, 3: a bending spring
     const R* linear;    ///< the constants of LinearSprings; nullptr: there are none
   };
   const R *c, *y, *free;  ///< positions when the step began; where inertia leads, from there; 0 for fixed particles

@@ -32,18 +32,19 @@ void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears, co
       for (int d = 0; d < int(directions.size()); ++d)
         if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
           whole_[std::size_t((i + ghost_rows) * pitch + d * width + j)] =
-              weights.linear == 0
-                  ? R(1)
-                  : R(weights.of(directions[std::size_t(d)]) + weights.linear * double(cloth.springs.at(d, i, j)));
+              !weights.differ()     ? R(1)
+              : weights.linear == 0 ? R(weights.springs.of(directions[std::size_t(d)]))
+                                    : R(weights.springs.of(directions[std::size_t(d)]) +
+                                        weights.linear * double(cloth.springs.at(d, i, j)));
     }
 }
 
 template <class R>
 void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance,
                                 bool changed, Beyond beyond) {
-  assert(weights.stretch >= 0 && weights.bending >= 0 && tolerance > 0 && tolerance < 1);
+  assert(weights.springs.least() >= 0 && weights.springs.bend >= 0 && tolerance > 0 && tolerance < 1);
   assert(rows_ == 0 || (rows_ == cloth.lattice.rows && stride_ == cloth.stride));
-  weight_ = cloth.preset.kind == Kind::one_weight ? 1 + weights.stretch : 0;
+  weight_ = cloth.preset.kind == Kind::one_weight ? 1 + weights.springs.weft : 0;
   if (weight_ != 0) return;
   if (rows_ == 0) {
     a_.resize(cloth.lattice.rows + 2 * ghost_rows, cloth.stride);
@@ -51,14 +52,14 @@ void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, Sprin
     columns_ = cloth.lattice.columns, stride_ = cloth.stride, rows_ = cloth.lattice.rows;
     changed = true;
   }
-  if (changed || weights_differ() || weights.linear != 0)
+  if (changed || weights_.differ() || weights.differ())
     make_masks(cloth, tears, weights), piece_of_.clear(), way_ = Way::untried;
   if (weights == weights_ && tolerance == tolerance_) return go_beyond(cloth, tears, beyond);
   weights_ = weights, tolerance_ = tolerance;
   // What no lattice's sums of squared differences exceed, times the squares: 12 along stretch springs, 8 along bending
   // ones. Fewer springs and fixed particles make them less.
-  kappa_ = 1 + 12 * weights.stretch + 8 * weights.bending;
-  if (weights_differ()) kappa_ += weights.linear * linear_sum_of(&Force::largest_eigenvalue, cloth.preset);
+  kappa_ = 1 + weights.springs.largest_stretch_eigenvalue() + 8 * weights.springs.bend;
+  if (weights.linear != 0) kappa_ += weights.linear * linear_sum_of(&Force::largest_eigenvalue, cloth.preset);
   products_ = 0, left_ = 0;
   piece_of_.clear(), way_ = Way::untried;
   if (kappa_ == 1) return;
@@ -103,7 +104,7 @@ void ConstantSolver<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
       };
       for (int d = 0; d < int(directions.size()); ++d) {
         const Direction& to = directions[std::size_t(d)];
-        if (weights_.of(to) == 0 && !weights_differ()) continue;
+        if (weights_.springs.of(to) == 0 && weights_.linear == 0) continue;
         look(d, i, j, i + to.di, j + to.dj);
         look(d, i - to.di, j - to.dj, i - to.di, j - to.dj);
       }
@@ -177,8 +178,8 @@ void ConstantSolver<R>::iterate(const Field& r, int begin, int end, double omega
     const Field& before = first ? a_ : b_;
     iterate_row(ConstantRow<R>{a_.row(i + ghost_rows), before.row(i + ghost_rows), r.row(i), b_.row(i + ghost_rows),
                                whole_.data() + (i + ghost_rows) * pitch, free_.data() + std::ptrdiff_t(i) * stride_,
-                               stride_, width, columns_, weights_differ() ? 1 : weights_.stretch,
-                               weights_differ() ? 1 : weights_.bending, per_middle, omega});
+                               stride_, width, columns_, weights_.differ() ? 1 : weights_.springs.weft,
+                               weights_.differ() ? 1 : weights_.springs.bend, per_middle, omega});
   }
 }
 

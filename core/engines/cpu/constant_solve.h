@@ -50,7 +50,6 @@ class ConstantSolver {
 
  private:
   void make_masks(const Cloth<R>& cloth, const Tears& tears, const SpringWeights& weights);
-  bool weights_differ() const { return weights_.linear != 0; }
   void iterate(const Field& r, int begin, int end, double omega, bool first);
   bool products_suffice() const { return left_ <= tolerance_ * (1 + 1e-9); }
   void go_beyond(const Cloth<R>& cloth, const Tears& tears, Beyond beyond);

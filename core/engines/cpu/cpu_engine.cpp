@@ -76,7 +76,8 @@ template <class R, unsigned Present>
 ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   ResolvedSweep out;
   out.position = sweep.position, out.velocity = sweep.velocity;
-  out.k_d = cloth_.preset.k_d * power(cloth_.dt, sweep.velocity_dt_power);
+  out.per_velocity = power(cloth_.dt, sweep.velocity_dt_power);
+  out.k_d = cloth_.preset.k_d * out.per_velocity;
   out.solve_dt = sweep.solves * cloth_.dt;
   out.damps_dt = sweep.damps * cloth_.dt;
   out.external = sweep.external, out.projects = sweep.projects;
@@ -127,7 +128,7 @@ void CpuEngine<R, Present>::resolve() {
   cloth_.bodies_move = any_moves(cloth_.preset.bodies);
   cloth_.bodies.swap(bodies);
   const Preset& p = cloth_.preset;
-  guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
+  guard_.set_rules({.tearing = has(part::tearing) && tears_springs(p),
                     .F_release = p.F_release,
                     .costly_steps = stops_within_steps()});
   guard_.set_scene(p, cloth_.lattice, cloth_.held);
@@ -381,7 +382,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step) {
   ResolvedSweep look;
   look.position = position, look.velocity = velocity;
-  look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
+  look.k_d = cloth_.preset.k_d / cloth_.velocity_scale(), look.per_velocity = 1 / cloth_.velocity_scale();
   accelerations(look, tears, out, of_step);
 }
 
@@ -491,7 +492,7 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
-  std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + constant_.bytes() +
+  std::size_t total = acceleration_.bytes() + air_.bytes() + solver_.bytes() + projector_.bytes() + constant_.bytes() +
                       descent_.bytes() + cloth_.springs.bytes() + cloth_.fixed.size() + guards_.size() +
                       (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
@@ -517,8 +518,9 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
           {"rigidity", cloth && swept(linear)},
           {"damping", swept(damping)},
           {"wind", cloth && swept(wind)},
+          {"air", cloth && swept(air)},
           {"bodies", has(part::bodies) && !p.bodies.empty()},
-          {"tearing", has(part::tearing) && cloth && p.F_max > 0 && p.k_s > 0},
+          {"tearing", has(part::tearing) && tears_springs(p)},
           {"pins", has(part::pins) && !pinned_.empty()},
           {"hand", has(part::hand) && cloth_.held.particle >= 0}};
 }

@@ -1,6 +1,7 @@
 // Implicit stages: one thread leads solvers that run to convergence; all threads share methods in which each particle
 // solves for itself.
 #include <cassert>
+#include <cstddef>
 
 #include "core/engines/cpu/cpu_engine.h"
 
@@ -24,19 +25,43 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
   return descend(number, sweep, tears);
 }
 
+/// The air of an implicit stage, as accelerations: at the positions and velocities with which the stage begins. Nothing
+/// without air.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::begin_air(const ResolvedSweep& sweep, const Tears& tears) {
+  if ((cloth_.features & air) == 0) return;
+  ResolvedSweep look;
+  look.position = sweep.position, look.velocity = sweep.velocity, look.air = ResolvedSweep::Air::alone;
+  accelerations(look, tears, air_, false);
+}
+
+/// Of a stage whose air has begun: a(x, v) with that.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::stage_accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out,
+                                                bool of_step) {
+  ResolvedSweep look;
+  look.position = sweep.position, look.velocity = sweep.velocity, look.external = sweep.external;
+  look.k_d = cloth_.preset.k_d, look.air = ResolvedSweep::Air::none;
+  accelerations(look, tears, out, of_step);
+  if ((cloth_.features & air) == 0) return;
+  for (int i = 0; i < cloth_.lattice.rows; ++i)
+    for (std::ptrdiff_t n = 0; n < air_.pitch(); ++n) out.row(i)[n] += air_.row(i)[n];
+}
+
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   assert(&sweep >= sweeps_.data() && &sweep < sweeps_.data() + sweeps_.size());
   for (const auto& band : bands()) band->assign(sweep.before, false);
+  begin_air(sweep, tears);
   const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
   const bool solved = solver_.solve(
       cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-      [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
+      [&](Field& out) { stage_accelerations(sweep, tears, out, true); },
       {repeating_ ? never_ : stop(),
        {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return out_of_time((stage + part) / stages); }},
        [&](double part) { set_step_progress((stage + part) / stages); },
        *crew_},
-      {scheme_->solver, springs_changed(tears)});
+      {scheme_->solver, springs_changed(tears), (cloth_.features & air) == 0 ? nullptr : &air_});
   if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
   return solved;
 }
@@ -55,6 +80,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   Field &x = cloth_.vector(sweep.position), &v = cloth_.vector(sweep.velocity);
   if (number == 0) {
     solver_.begin_stage(cloth_, sweep.position, sweep.velocity);
+    begin_air(sweep, tears);
     descent_.prepare(cloth_, tears, sweep.solve_dt, springs_changed(tears));
     accept_springs(tears);
   }
@@ -74,7 +100,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   team_->barrier();
   if (number == 0)
     solver_.measure_stage(
-        sweep.solve_dt, tears, [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
+        sweep.solve_dt, tears, [&](Field& out) { stage_accelerations(sweep, tears, out, true); },
         {never_, {}, [](double) {}, *crew_}, made);
   team_->barrier();
   return true;
@@ -86,7 +112,7 @@ template <class R, unsigned Present>
 bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears) {
   assert(pass >= 0 && pass < most_passes());
   const int begin = band_begin(number), end = band_begin(number + 1);
-  const bool blows = (cloth_.features & wind) != 0;
+  const bool blows = (cloth_.features & (wind | air)) != 0;
   if (blows) {
     descent_.write_positions(cloth_.vector(sweep.position), begin, end);
     team_->barrier();
@@ -98,7 +124,7 @@ bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep
     if (late_) solver_.note_late();
     ResolvedSweep look;
     look.position = sweep.position, look.velocity = sweep.velocity, look.external = true;
-    if (blows) accelerations(look, tears, acceleration_, false);
+    if (blows) stage_accelerations(look, tears, acceleration_, false);
   }
   team_->barrier();
   if (abandoned_) return false;

@@ -20,10 +20,11 @@ StateView<R> CpuEngine<R, Present>::view() const {
 /// Breaks what is overloaded, and says by how much any other spring may still grow, m.
 template <class R, unsigned Present>
 double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
-  assert(cloth_.preset.k_s > 0 && cloth_.preset.F_max > 0);
+  assert(cloth_.preset.F_max > 0);
   double slack = std::numeric_limits<double>::infinity();
   for (int d = 0; d < stretch_directions; ++d) {
-    const double longest = directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / cloth_.preset.k_s;
+    const double longest =
+        directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / spring_constant(cloth_.preset, directions[d]);
     for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i)
       slack = std::min(slack, longest * (1 - rounding<R>)-std::sqrt(tear_row(tears, d, i)));
   }
@@ -36,7 +37,8 @@ template <class R, unsigned Present>
 double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   assert(d >= 0 && d < stretch_directions);
   const Direction& dir = directions[d];
-  const double rest = dir.rest * cloth_.preset.L, longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
+  const double rest = dir.rest * cloth_.preset.L, k = spring_constant(cloth_.preset, dir);
+  const double longest = rest + cloth_.preset.F_max / k;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
   // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be overloaded.
   const double found = double(simd::longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
@@ -46,7 +48,7 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   for (int j = begin; j < end; ++j) {
     if (!tears.whole(d, i, j) || guarded(i, j) || guarded(i + dir.di, j + dir.dj)) continue;
     const double r2 = distance2(view(), i, j, dir);
-    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, r2) > cloth_.preset.F_max)
+    if (HWY_NAMESPACE::stretch_tension(k, rest, r2) > cloth_.preset.F_max)
       tears.tear(d, i, j);
     else
       left = std::max(left, r2);
@@ -144,8 +146,8 @@ void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
   const Preset& p = cloth_.preset;
   assert(solves_damping(*scheme_));
   constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
-  constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m, 0}, tolerance,
-                    springs_changed(tears), ConstantSolver<R>::Beyond::factorizes);
+  constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m * SpringConstants{1, 1, 1, 0}},
+                    tolerance, springs_changed(tears), ConstantSolver<R>::Beyond::factorizes);
   accept_springs(tears);
 }
 

@@ -16,9 +16,11 @@ template <class R>
 bool GlobalStep<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed, const Stop& stop) {
   const Preset& p = cloth.preset;
   assert(h > 0 && p.m > 0);
-  const auto [stretch, bend] = spring_constants(p);
-  const SpringWeights weights{(h * h * stretch + h * p.k_d) / p.m, h * h * bend / p.m,
-                              cloth.springs.empty() ? 0 : h * h / p.m};
+  const SpringConstants springs = spring_constants(p);
+  const auto stretch = [&](double k) { return (h * h * k + h * p.k_d) / p.m; };
+  const SpringWeights weights{
+      {stretch(springs.weft), stretch(springs.warp), stretch(springs.shear), h * h * springs.bend / p.m},
+      cloth.springs.empty() ? 0 : h * h / p.m};
   changed = changed || springs_ != cloth.springs.version();
   if (ready_ && !changed && weights == weights_) return true;
   changed = changed || !ready_;

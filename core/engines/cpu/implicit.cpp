@@ -100,7 +100,7 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
                               const Accelerations& accelerations, const Watch& watch, Way way) {
   assert(dt > 0 && position != velocity);
   if (!begin_stage(cloth, position, velocity, &watch)) return false;
-  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations;
+  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, air_ = way.air;
   // A mass on a spring is linear: Newton's method solves it in one step.
   const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
   alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
@@ -170,12 +170,22 @@ Balance ImplicitSolver<R>::solve_quickly() {
 
 template <class R>
 Balance ImplicitSolver<R>::solve_stiff() {
-  const Balance balance = stiff_.solve(
-      implicit::StiffTask<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt, start_x_.row(0),
-                             start_v_.row(0), cloth().vector(vector_x).row(0), velocity().row(0), stride_,
-                             [this] { return stops(); }, [this](double best) { return is_over(stiff_share(best)); },
-                             [this](double part) { note_progress(part); }, task_.watch->crew},
-      counts_);
+  const implicit::StiffTask<R> stage{.preset = cloth().preset,
+                                     .lattice = cloth().lattice,
+                                     .tears = *task_.tears,
+                                     .fixed = cloth().fixed,
+                                     .h = task_.dt,
+                                     .c_x = start_x_.row(0),
+                                     .c_v = start_v_.row(0),
+                                     .air = air_ == nullptr ? nullptr : air_->row(0),
+                                     .x = cloth().vector(vector_x).row(0),
+                                     .v = velocity().row(0),
+                                     .stride = stride_,
+                                     .stops = [this] { return stops(); },
+                                     .out_of_time = [this](double best) { return is_over(stiff_share(best)); },
+                                     .progress = [this](double part) { note_progress(part); },
+                                     .crew = task_.watch->crew};
+  const Balance balance = stiff_.solve(stage, counts_);
   // What was found in double may be less well balanced in the precision in which it is kept.
   if (!stopped_) evaluate(), this->balance();
   return balance;

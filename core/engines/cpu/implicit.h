@@ -34,6 +34,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   struct Way {
     Solver solver;
     bool changed;
+    const Field* air;  ///< accelerations that the stage has beside those of its positions and velocities; or null
   };
 
   /// A step begins, whose stages come next.
@@ -133,6 +134,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Array<R> coefficients_;
   DirectSolver direct_;
   implicit::StiffStage stiff_;
+  const Field* air_ = nullptr;  ///< of the present stage
   implicit::TooSlow too_slow_;
   GlobalStep<R> global_;
   SolveCounts counts_;

@@ -23,7 +23,7 @@ bool LatticeFactor<R>::factorize(const Cloth<R>& cloth, const Tears& tears, cons
       for (int d = 0; d < int(directions.size()); ++d) {
         const Direction& to = directions[std::size_t(d)];
         const double linear = weights.linear == 0 ? 0 : weights.linear * double(cloth.springs.at(d, i, j));
-        const double weight = weights.of(to) + linear;
+        const double weight = weights.springs.of(to) + linear;
         if (weight == 0 || !lattice_.has_spring(d, i, j) || !tears.whole(d, i, j)) continue;
         springs_.push_back({number(i, j), number(i + to.di, j + to.dj), weight});
       }

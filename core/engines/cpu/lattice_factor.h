@@ -11,14 +11,17 @@
 #include "core/cloth/lattice.h"
 #include "core/engines/banded.h"
 #include "core/engines/cpu/band.h"
+#include "core/forces/force.h"
 #include "core/model/preset.h"
 
 namespace tyglab::cpu {
 
 /// β of stretch and of bending springs, and what the constants of LinearSprings are multiplied by.
 struct SpringWeights {
-  double stretch = 0, bending = 0, linear = 0;
-  double of(const Direction& to) const { return to.bending ? bending : stretch; }
+  SpringConstants springs;  ///< of the lattice's
+  double linear = 0;        ///< what the constants of LinearSprings are multiplied by
+  /// Whether springs of one kind, stretching or bending, differ.
+  bool differ() const { return linear != 0 || !springs.stretches_alike(); }
   bool operator==(const SpringWeights&) const = default;
 };
 

@@ -43,6 +43,8 @@ class PairSweep {
   using V = Vec3<D>;
   using M = hn::Mask<D>;
   static constexpr int lanes = int(hn::MaxLanes(D()));
+  /// Otherwise all stretch springs have the weft's constant, which takes a register less.
+  static constexpr bool own = (F & threads) != 0;
 
  public:
   explicit HWY_INLINE PairSweep(const PairTask<R>& task)
@@ -53,8 +55,9 @@ class PairSweep {
         x_(task.x),
         v_(task.v),
         f_{task.f[0], task.f[1], task.f[2], task.f[3]},
-        straight_(Spring<L>::of(task.stretch, task.L * directions[0].rest, &L::all)),
-        diagonal_(Spring<L>::of(task.stretch, task.L * directions[2].rest, &L::all)),
+        weft_(Spring<L>::of(task.weft, task.L * directions[0].rest, &L::all)),
+        warp_(Spring<L>::of(own ? task.warp : task.weft, task.L * directions[1].rest, &L::all)),
+        shear_(Spring<L>::of(own ? task.shear : task.weft, task.L * directions[2].rest, &L::all)),
         bending_(Spring<L>::of(task.bend, task.L * directions[4].rest, &L::all)),
         k_d_(L::all(task.k_d)),
         weight_(L::all(task.weight)),
@@ -64,6 +67,10 @@ class PairSweep {
         keeps_force_(task.update == Update::force),
         dt_v_(L::all(task.dt_v)),
         third_of_W_(L::all(task.W[0] / 3), L::all(task.W[1] / 3), L::all(task.W[2] / 3)),
+        u_(L::all(task.u[0]), L::all(task.u[1]), L::all(task.u[2])),
+        air_across_(L::all(task.air_across)),
+        air_along_(L::all(task.air_along)),
+        air_most_(L::all(task.air_most)),
         largest_(L::load(task.max_displacement)) {}
 
   HWY_INLINE void run() {
@@ -139,11 +146,11 @@ class PairSweep {
     Factors s;
     const R* const below = x + pitch_;
     const V A = load(x), B = load(x + 1);
-    s.right = stretch_factor(straight_, squared(B - A, x_ij[right]));
+    s.right = stretch_factor(weft_, squared(B - A, x_ij[right]));
     const V C = load(below);
-    s.crossing = stretch_factor(diagonal_, squared(C - B, x_ij[crossing]));
-    s.down = stretch_factor(straight_, squared(C - A, x_ij[down]));
-    s.diagonal = stretch_factor(diagonal_, squared(load(below + 1) - A, x_ij[diagonal]));
+    s.crossing = stretch_factor(shear_, squared(C - B, x_ij[crossing]));
+    s.down = stretch_factor(own ? warp_ : weft_, squared(C - A, x_ij[down]));
+    s.diagonal = stretch_factor(shear_, squared(load(below + 1) - A, x_ij[diagonal]));
     if constexpr ((F & bending) != 0) {
       s.two_right = bend_factor(bending_, squared(load(x + 2) - A, x_ij[two_right]));
       s.two_down = bend_factor(bending_, squared(load(below + pitch_) - A, x_ij[two_down]));
@@ -160,12 +167,22 @@ class PairSweep {
             hn::IfThenElse(mask, yes.z.v, no.z.v)};
   }
   template <bool masked>
-  HWY_INLINE OnTriangles blow(M odd, const Difference (&x_ij)[springs], const Masks<D>& m) const {
+  HWY_INLINE OnTriangles blow(M odd, const Difference (&x_ij)[springs], const R* v, const Masks<D>& m) const {
     const auto difference = [&](int n) HWY_ATTR { return V::load(x_ij[n][0], lanes); };
     const V to_B = difference(right), to_C = difference(down), to_E = difference(diagonal);
     const V below = to_E - to_C, beside = to_E - to_B;  // C-E, B-E
-    const V first = wind_on_corner(cross(to_C, pick(odd, to_B, below)), third_of_W_, smallest_);
-    const V second = wind_on_corner(cross(beside, pick(odd, below, to_B)), third_of_W_, smallest_);
+    const V first_n = cross(to_C, pick(odd, to_B, below)), second_n = cross(beside, pick(odd, below, to_B));
+    V first = wind_on_corner(first_n, third_of_W_, smallest_);
+    V second = wind_on_corner(second_n, third_of_W_, smallest_);
+    if constexpr ((F & air) != 0) {
+      const V A = load(v), B = load(v + 1), C = load(v + pitch_), E = load(v + pitch_ + 1);
+      const L third = L::all(1.0 / 3);
+      const auto resist = [&](V n, V sum) HWY_ATTR {
+        return air_on_corner(n, u_ - third * sum, air_across_, air_along_, air_most_, smallest_);
+      };
+      first = first + resist(first_n, (A + C) + pick(odd, B, E));
+      second = second + resist(second_n, (B + E) + pick(odd, C, A));
+    }
     OnTriangles w;
     w.first[0] = first.x, w.first[1] = first.y, w.first[2] = first.z;
     w.second[0] = second.x, w.second[1] = second.y, w.second[2] = second.z;
@@ -229,7 +246,7 @@ class PairSweep {
     Factors s = measure(x, (F & linear) != 0 ? t_.linear[row] + j : nullptr, x_ij);
     OnTriangles w;
     const M odd = odd_quads<D>(row, j);
-    if constexpr ((F & wind) != 0) w = blow<masked>(odd, x_ij, m);
+    if constexpr ((F & wind) != 0) w = blow<masked>(odd, x_ij, v, m);
     settle(x_ij);
     Place p{x, v, f_[row] + j, f_[2] + j, f_[3] + j};
     move<masked, row, 0>(p, x_ij, s, w, odd, m, carries, across), p.next(stride_);
@@ -284,23 +301,28 @@ class PairSweep {
   const std::ptrdiff_t stride_, pitch_;
   const int columns_;
   R *const x_, *const v_, *const f_[4];
-  const Spring<L> straight_, diagonal_, bending_;
+  const Spring<L> weft_, warp_, shear_, bending_;
   const L k_d_, weight_, v_to_x_, force_to_x_, force_to_v_;
   const bool keeps_force_;
   const L dt_v_;
-  const V third_of_W_;
+  const V third_of_W_, u_;
+  const L air_across_, air_along_, air_most_;
   const L smallest_ = L::all(double(std::numeric_limits<R>::min()));
   L largest_;
 };
 
 /// The fallbacks of processors from before AVX2 (2013) have all features compiled in; what is off has constants of 0
-/// there. Each would take as long to compile as an instruction set that is used. For the same reason `linear` brings
-/// bending and damping with it.
+/// there. Each would take as long to compile as an instruction set that is used. For the same reason `linear` and
+/// `threads` bring bending and damping with them, and `air` these and wind.
 constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSE4;
 
 template <class R, unsigned F, bool displacements>
 void sweep_pair(const PairTask<R>& task) {
-  constexpr unsigned compiled = F | (fallback ? bending | damping | wind : F & linear ? bending | damping : 0u);
+  constexpr unsigned with = fallback                        ? bending | damping | wind | threads
+                            : (F & air) != 0                ? bending | damping | wind
+                            : (F & (linear | threads)) != 0 ? bending | damping
+                                                            : 0u;
+  constexpr unsigned compiled = F | with;
   if constexpr (F != compiled) {
     PairTask<R> t = task;
     if ((F & bending) == 0) t.bend = 0;

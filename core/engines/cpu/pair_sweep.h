@@ -10,7 +10,8 @@
 namespace tyglab::cpu {
 
 /// What a scene needs. A template argument of the sweep, so that what is off costs nothing.
-enum Feature : unsigned { bending = 1, damping = 2, wind = 4, linear = 8, feature_sets = 16 };
+/// `threads`: warp, weft and shear differ.
+enum Feature : unsigned { bending = 1, damping = 2, wind = 4, linear = 8, air = 16, threads = 32, feature_sets = 64 };
 
 /// What is done with the force on a row.
 enum class Update : unsigned {
@@ -34,10 +35,13 @@ struct PairTask {
   const std::uint8_t* whole;     ///< tear masks of row i, the next two behind it, or nullptr while untorn
   const std::uint8_t* fixed[2];  ///< non-zero at pinned and held particles; nullptr: none in that row. f[0], f[1] then
                                  ///< keep the force on them
-  double L, stretch, bend, k_d;  ///< k_d divided by dt where v holds displacements
-  const R* linear[2];            ///< of the two rows, as in LinearSprings; used with the feature of that name
-  double weight;                 ///< m·g, N
+  double L, weft, warp, shear, bend, k_d;  ///< k_d divided by dt where v holds displacements
+  const R* linear[2];                      ///< of the two rows, as in LinearSprings; used with the feature of that name
+  double weight;                           ///< m·g, N
   double W[3];
+  /// Of the air (force.h), for velocities as v has them: its velocity, what |u·n| and |n||u| are multiplied by to
+  /// resist a corner across and along a triangle, and the most of both.
+  double u[3], air_across, air_along, air_most;
   double v_to_x, force_to_x, force_to_v;
   Update update;
   double dt_v;          ///< factor from v to a displacement, m: dt, or 1 where v is one

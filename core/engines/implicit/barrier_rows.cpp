@@ -79,15 +79,16 @@ HWY_INLINE Taut taut(const BarrierRow& row, int j) {
   const double rest = directions[d].rest * row.constants.L;
   const std::ptrdiff_t at = d * row.stride + j;
   const Length length = length_of(apart<d>(row.x + j, row.stride), rest);
-  const L k = L::all(row.constants.stretch), tension = L::load(row.tension + at), slack = L::load(row.slack + at);
-  const L gap = length.r - L::all(rest) - tension * L::all(1 / row.constants.stretch) + slack;
+  const L k = L::all(row.constants.stretch[d]), tension = L::load(row.tension + at), slack = L::load(row.slack + at);
+  const L gap = length.r - L::all(rest) - tension * L::all(1 / row.constants.stretch[d]) + slack;
   return {length.n, length.r, tension, slack, L::load(row.whole + at), gap, k / multiply_add(k, slack, tension)};
 }
 
 void begin(const BarrierRow& row, double mu) {
   const auto one = [&](auto d) HWY_ATTR {
     const double rest = directions[d].rest * row.constants.L;
-    const L half = L::all(row.constants.stretch / 2), root = L::all(4 * mu / row.constants.stretch), fill = L::all(mu);
+    const double k = row.constants.stretch[d];
+    const L half = L::all(k / 2), root = L::all(4 * mu / k), fill = L::all(mu);
     for (int j = 0; j < row.columns; j += lanes) {
       const L r = hn::Sqrt(dot(apart<d>(row.x + j, row.stride), apart<d>(row.x + j, row.stride)).v);
       const L longer = r - L::all(rest), both = hn::Sqrt(multiply_add(longer, longer, root).v);
@@ -130,13 +131,14 @@ HWY_INLINE void add_across(L value, R* to) {
 template <class R>
 BarrierSums linearize(const BarrierRow& row, double* forces, double* right, R* coefficients, std::ptrdiff_t to) {
   const std::ptrdiff_t stride = row.stride;
-  const L k_s = L::all(row.constants.stretch), push_k = L::all(row.constants.bend), k_d = L::all(row.constants.damping);
+  const L push_k = L::all(row.constants.bend), k_d = L::all(row.constants.damping);
   Scatter scatter_forces, scatter_right;
   L products, force;
   for (int j = 0; j < row.columns; j += lanes) {
     V f[6], g[6];
     const auto stretch = [&](auto d) HWY_ATTR {
       const std::ptrdiff_t at = d * stride + j;
+      const L k_s = L::all(row.constants.stretch[d]);
       Taut spring = taut<d>(row, j);
       // The gap that is negative is filled up by slack.
       const L fill = L(hn::Zero(D())) - negative(spring.gap);

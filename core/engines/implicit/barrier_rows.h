@@ -2,13 +2,17 @@
 // lengths: forces and stiffnesses are multiplied by h²/m, damping by h/m.
 #pragma once
 
+#include <array>
 #include <cstddef>
+
+#include "core/cloth/lattice.h"
 
 namespace tyglab::implicit {
 
 struct BarrierConstants {
-  double stretch, bend, damping;  ///< of springs k h²/m, and k_d h/m
-  double L;                       ///< m
+  std::array<double, stretch_directions> stretch;  ///< k h²/m of springs by direction, above 0
+  double bend, damping;                            ///< k_b h²/m and k_d h/m
+  double L;                                        ///< m
 };
 
 /// One row. Arrays of springs have `stride` numbers for each of the directions (lattice.h) in turn, those of tensions

@@ -183,7 +183,9 @@ double InteriorPoint<R>::linearize() {
 /// The residual that counts as none: the tolerance, or what the last digits of positions in double make of the forces.
 template <class R>
 double InteriorPoint<R>::allowed() const {
-  const double stiffness = std::max(task_->constants.stretch, task_->constants.bend) + task_->linear_stiffness;
+  const auto& stretch = task_->constants.stretch;
+  const double stiffness =
+      std::max(*std::max_element(stretch.begin(), stretch.end()), task_->constants.bend) + task_->linear_stiffness;
   const double digits = 4 * std::numeric_limits<double>::epsilon() * size_ * (1 + stiffness);
   return std::max(task_->tolerance * force_, digits);
 }
@@ -342,7 +344,8 @@ template <class R>
 Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   task_ = &task, counts_ = &counts;
   assert(task.tears != nullptr && task.tolerance > 0);
-  assert(task.constants.L > 0 && task.constants.stretch > 0 && task.constants.bend >= 0);
+  assert(task.constants.L > 0 && *std::min_element(task.constants.stretch.begin(), task.constants.stretch.end()) > 0 &&
+         task.constants.bend >= 0);
   begin();
   best_balance_ = {false, std::numeric_limits<double>::infinity()};
   const auto part_of = [](double most) { return std::min(1.0, to_border / most); };

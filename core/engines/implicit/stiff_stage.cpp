@@ -1,5 +1,7 @@
 #include "core/engines/implicit/stiff_stage.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -70,23 +72,28 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
     const double from = double(task.c_x[n]), end = from + h * double(task.c_v[n]);
     solver.c().row(i, c)[j] = from;
     solver.y().row(i, c)[j] = end - (c == 1 && !fixed ? h * h * p.g : 0);
+    if (task.air != nullptr && !fixed) solver.y().row(i, c)[j] += h * h * double(task.air[n]);
     solver.x().row(i, c)[j] = fixed ? end : double(task.x[n]);
   });
   if (!begun) return {};
-  typename InteriorPoint<S>::Task inner{
-      .constants = {springs.stretch * scale, springs.bend * scale, p.k_d * h / p.m, p.L},
-      .gravity = h * h * p.g,
-      .weight = weight_scale(p.g, h),
-      .tolerance = task.tolerance,
-      .tears = &task.tears,
-      .linear = linear_,
-      .linear_stiffness = scale * linear_sum_of(&Force::at_particle, p),
-      .fixed = task.fixed,
-      .others = {},
-      .stops = task.stops,
-      .out_of_time = task.out_of_time,
-      .progress = task.progress,
-      .crew = task.crew};
+  // Every spring needs a tension, so one of constant 0 gets a hair of one.
+  constexpr double least = 1e-9;
+  std::array<double, stretch_directions> stretch;
+  for (std::size_t d = 0; d < stretch.size(); ++d)
+    stretch[d] = std::max(springs.of(directions[d]), least * springs.largest()) * scale;
+  typename InteriorPoint<S>::Task inner{.constants = {stretch, springs.bend * scale, p.k_d * h / p.m, p.L},
+                                        .gravity = h * h * p.g,
+                                        .weight = weight_scale(p.g, h),
+                                        .tolerance = task.tolerance,
+                                        .tears = &task.tears,
+                                        .linear = linear_,
+                                        .linear_stiffness = scale * linear_sum_of(&Force::at_particle, p),
+                                        .fixed = task.fixed,
+                                        .others = {},
+                                        .stops = task.stops,
+                                        .out_of_time = task.out_of_time,
+                                        .progress = task.progress,
+                                        .crew = task.crew};
   if (p.W != glm::dvec3(0))
     inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
   const Balance balance = solver.solve(inner, counts);

@@ -13,6 +13,7 @@
 #include "core/engines/balance.h"
 #include "core/engines/implicit/interior_point.h"
 #include "core/engines/newton.h"
+#include "core/forces/force.h"
 #include "core/forces/linear_springs.h"
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
@@ -26,7 +27,7 @@ inline constexpr double stiff = 10;
 inline constexpr double very_stiff = 1e6;
 inline double stiffness_of(const Preset& preset, double h) {
   assert(h > 0 && preset.m > 0);
-  return preset.k_s * h * h / preset.m;
+  return spring_constants(preset).largest() * h * h / preset.m;
 }
 
 /// The stage as an engine stores it: each array row by row, its x, then its y, then its z, `stride` numbers each.
@@ -38,8 +39,9 @@ struct StiffTask {
   std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
   double h;                             ///< s
   const R *c_x, *c_v;
-  const R* x;  ///< positions from which to begin
-  R* v;        ///< receives the solution, or the best that was found; fixed particles' is left
+  const R* air;  ///< accelerations beside gravity and the wind, or null
+  const R* x;    ///< positions from which to begin
+  R* v;          ///< receives the solution, or the best that was found; fixed particles' is left
   std::ptrdiff_t stride;
   std::function<bool()> stops;
   std::function<bool(double best)> out_of_time;  ///< as InteriorPoint::Task has it
@@ -51,7 +53,9 @@ struct StiffTask {
 class StiffStage {
  public:
   /// Whether a stage can be solved at all in this way.
-  static bool possible(const Preset& preset) { return preset.kind == Kind::cloth && preset.k_s > 0; }
+  static bool possible(const Preset& preset) {
+    return preset.kind == Kind::cloth && spring_constants(preset).largest() > 0;
+  }
   template <class R>
   Balance solve(const StiffTask<R>& task, SolveCounts& counts);
   std::size_t bytes() const;

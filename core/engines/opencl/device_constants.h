@@ -10,11 +10,12 @@ inline constexpr int most_coefficients = 16;  ///< in the sums of one sweep
 /// Constants of cloth.cl.
 template <class R>
 struct DeviceConstants {
-  R stretch = 0, straight = 0, diagonal = 0;
+  R weft = 0, weft_half = 0, warp = 0, warp_half = 0, shear = 0, shear_half = 0;
   R bend = 0, bending = 0, shortest2 = 0;
   R k_d = 0;
   R weight = 0;
   R wind[3] = {};
+  R air[3] = {}, air_across = 0, air_along = 0, air_most = 0;
   R smallest = 0;
   R dt = 0, to_way = 0, to_velocity = 0;
   R k = 0, middle = 0;
@@ -38,7 +39,7 @@ struct DeviceContact {
 /// Linear of implicit.cl.
 template <class R>
 struct DeviceLinear {
-  R stretch = 0, bend = 0, k_d = 0;
+  R weft = 0, warp = 0, shear = 0, bend = 0, k_d = 0;
   R own = 1;
   R straight = 0, diagonal = 0, bending = 0;
   R shortest = 0;
@@ -66,9 +67,10 @@ struct DeviceStepMeasures {
   float way;  ///< largest component of a displacement, m; ∞ or NaN if something is not finite
   std::uint32_t left_inside, contacts;
   std::uint32_t torn;        ///< 1: a spring was torn
-  float straight, diagonal;  ///< squares of the lengths of the longest springs left whole, m²
-  float bending;
-  std::uint32_t bad;  ///< 1: a number of the state is not finite
+  float straight, diagonal;  ///< squares of the lengths of the longest springs left whole, m²; where springs are torn,
+                             ///< `straight` is of those along the rows alone,
+  float bending;             ///< and this of those down the columns
+  std::uint32_t bad;         ///< 1: a number of the state is not finite
 };
 
 }  // namespace tyglab::opencl

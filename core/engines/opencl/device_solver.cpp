@@ -108,8 +108,8 @@ Balance DeviceSolver<R>::solve_stiff() {
            *const x_rows = state_.map(x, CL_MAP_READ), *const v_rows = state_.map(v, CL_MAP_READ | CL_MAP_WRITE);
   implicit::Crew alone;
   const Balance balance = stiff_.solve(
-      implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, x_rows, v_rows,
-                             state_.stride(), [this] { return stops(); }, [](double) { return false; },
+      implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, nullptr, x_rows,
+                             v_rows, state_.stride(), [this] { return stops(); }, [](double) { return false; },
                              [this](double part) { note_progress(part); }, alone},
       counts_);
   state_.unmap(c_x, c_x_rows), state_.unmap(c_v, c_v_rows), state_.unmap(x, x_rows), state_.unmap(v, v_rows);
@@ -144,8 +144,10 @@ int DeviceSolver<R>::set_system(const Kernel& kernel) const {
   const Preset& p = *task_.preset;
   const double h = task_.h, L = p.L;
   constexpr double shortest = 1e-9;  // as in spring-inl.h
-  const auto [stretch, bend] = spring_constants(p);
-  const DeviceLinear<R> linear{R(h * h * stretch / p.m),
+  const auto [weft, warp, shear, bend] = spring_constants(p);
+  const DeviceLinear<R> linear{R(h * h * weft / p.m),
+                               R(h * h * warp / p.m),
+                               R(h * h * shear / p.m),
                                R(h * h * bend / p.m),
                                R(h * p.k_d / p.m),
                                R(own_stiffness(p, h)),

@@ -73,7 +73,8 @@ std::string program_features(const Preset& preset, bool contacts) {
   const bool linear = LinearSprings<float>::exist(preset);
   if (force::bend.on(preset) || linear) text += " -D BENDING";
   if (linear) text += " -D LINEAR";
-  if (force::wind.on(preset)) text += " -D WIND";
+  if (force::wind.on(preset) || force::air.on(preset)) text += " -D WIND";
+  if (force::air.on(preset)) text += " -D AIR";
   return text;
 }
 

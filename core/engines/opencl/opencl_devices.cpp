@@ -54,4 +54,8 @@ bool runs_on_opencl(const Scheme& method) {
   return !projects(method) && !chooses_steps(method) && !solves_damping(method) && !counts_passes(method);
 }
 
+const Force* missing_on_opencl(const Preset& preset) {
+  return force::air.on(preset) && is_implicit(scheme(preset.integrator)) ? &force::air : nullptr;
+}
+
 }  // namespace tyglab

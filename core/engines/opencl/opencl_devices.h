@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/engines/engine.h"
+#include "core/forces/force.h"
 
 namespace tyglab {
 
@@ -59,6 +60,8 @@ std::string no_device_words(const std::string& problem);
 
 /// Whether OpenCL devices run the method: it must have a fixed dt and not project.
 bool runs_on_opencl(const Scheme& method);
+/// A force of the scene that OpenCL devices do not compute with its method; nullptr if there is none.
+const Force* missing_on_opencl(const Preset& preset);
 
 /// Particles of the largest cloth whose linear systems a processor solves in one launch; larger cloths need other
 /// kernels.

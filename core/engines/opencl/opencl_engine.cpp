@@ -19,6 +19,13 @@ namespace {
 
 constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
 
+void refuse_missing(const Preset& preset) {
+  if (const Force* force = missing_on_opencl(preset))
+    throw EngineError(
+        "The OpenCL engine does not compute " + std::string(force->symbol) + " with " + preset.integrator +
+        "; use the CPU engine (--engine cpu), an explicit method such as verlet, or " + "air_density = 0");
+}
+
 template <class R>
 constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
 
@@ -85,15 +92,21 @@ template <class R>
 DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& sweep) const {
   const double scale = scheme_->keeps_displacement ? p.dt : 1;
   Constants k;
-  const auto [stretch, bend] = spring_constants(p);
-  k.stretch = R(stretch), k.straight = R(-stretch * directions[0].rest * p.L / 2),
-  k.diagonal = R(-stretch * directions[2].rest * p.L / 2);
+  const auto [weft, warp, shear, bend] = spring_constants(p);
+  k.weft = R(weft), k.weft_half = R(-weft * directions[0].rest * p.L / 2);
+  k.warp = R(warp), k.warp_half = R(-warp * directions[1].rest * p.L / 2);
+  k.shear = R(shear), k.shear_half = R(-shear * directions[2].rest * p.L / 2);
   k.bend = R(bend), k.bending = R(-bend * directions[4].rest * p.L / 2);
   constexpr double shortest = 1e-9;  // as in spring-inl.h
   k.shortest2 = R(std::pow(shortest * directions[4].rest * p.L, 2));
   k.k_d = R(p.k_d * power(p.dt, sweep.velocity_dt_power));
   k.weight = R(p.m * p.g);
   for (int c = 0; c < 3; ++c) k.wind[c] = R(p.W[c] / 3);
+  // As Band::take_air.
+  const double per = power(p.dt, sweep.velocity_dt_power), corner = per * per * p.air_density / 12;
+  for (int c = 0; c < 3; ++c) k.air[c] = R(p.u[c] / per);
+  k.air_across = R(corner * p.C_N), k.air_along = R(corner * p.C_T);
+  k.air_most = R(per * most_air_damping(p, p.dt));
   k.smallest = std::numeric_limits<R>::min();
   k.dt = R(p.dt), k.to_way = R(p.dt / scale), k.to_velocity = R(1 / scale);
   k.k = R(p.k), k.middle = R(p.x_0.y);
@@ -301,6 +314,7 @@ void OpenClEngine<R>::synchronize(const Tears& tears) {
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
+  refuse_missing(preset);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
@@ -465,6 +479,7 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
                       "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet");
+  refuse_missing(preset);
   // Where there is no device, open_device() says so.
   if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);

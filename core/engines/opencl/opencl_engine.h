@@ -101,7 +101,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::optional<VertexBox> write(GlVertices& vertices, const VertexRequest& request) override;
   std::string copy_reason() const override;
 
-  bool tears_watched() const { return preset_.F_max > 0 && preset_.k_s > 0 && preset_.kind == Kind::cloth; }
+  bool tears_watched() const { return tears_springs(preset_); }
   double velocity_scale() const { return scheme_->keeps_displacement && !synchronized_ ? preset_.dt : 1; }
   /// How far velocities lag behind positions, s.
   double lag() const { return synchronized_ ? 0 : scheme_->lag * preset_.dt; }

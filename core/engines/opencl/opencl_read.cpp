@@ -83,8 +83,8 @@ template <class R>
 std::vector<StepFeature> OpenClEngine<R>::features() const {
   const Preset& p = preset_;
   return {{"bending", force::bend.on(p)}, {"rigidity", force::rigidity.on(p)}, {"damping", force::damping.on(p)},
-          {"wind", force::wind.on(p)},    {"bodies", meets_bodies(p)},         {"tearing", tears_watched()},
-          {"pins", !pinned_.empty()},     {"hand", held_.particle >= 0}};
+          {"wind", force::wind.on(p)},    {"air", force::air.on(p)},           {"bodies", meets_bodies(p)},
+          {"tearing", tears_watched()},   {"pins", !pinned_.empty()},          {"hand", held_.particle >= 0}};
 }
 
 template <class R>

@@ -7,23 +7,27 @@
 
 #include "core/engines/opencl/device.h"
 #include "core/engines/opencl/opencl_engine.h"
+#include "core/forces/force.h"
 
 namespace tyglab::opencl {
 
 template <class R>
 void OpenClEngine<R>::enqueue_tear(int slot) {
   assert(slot >= 0 && slot < StepGuard::steps_between_backups);
-  assert(preset_.k_s > 0 && preset_.F_max > 0);
+  assert(tears_watched());
   const auto set = [&](auto exact) {
     using B = decltype(exact);
     const double straight = directions[0].rest * preset_.L, diagonal = directions[2].rest * preset_.L;
-    const double F_over_k = preset_.F_max / preset_.k_s;
-    const auto certain = [&](double rest) { return R(std::pow(rest + F_over_k, 2) * (1 - rounding<R>)); };
+    const auto [weft, warp, shear, bend] = spring_constants(preset_);
+    const auto certain = [&](double k, double rest) {
+      return R(std::pow(rest + preset_.F_max / k, 2) * (1 - rounding<R>));
+    };
     const cl_mem x = state_.vector(vector_x), springs = state_.springs(), guards = guards_.get(),
                  reports = reports_.get();
     set_arguments(kernels_.tear, 0, x, springs, guards, reports, cl_int(slot), cl_int(state_.stride()),
-                  cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns), B(preset_.k_s),
-                  B(straight), B(diagonal), B(preset_.F_max), certain(straight), certain(diagonal));
+                  cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns), B(weft), B(warp),
+                  B(shear), B(straight), B(diagonal), B(preset_.F_max), certain(weft, straight),
+                  certain(warp, straight), certain(shear, diagonal));
   };
   device_->facts().fp64 ? set(double()) : set(float());
   constexpr int of_card = 32;  // work-items a row
@@ -80,11 +84,12 @@ int OpenClEngine<R>::steps_of_batch(int most) const {
 
 template <class R>
 double OpenClEngine<R>::tear_slack(const DeviceStepMeasures& report) const {
-  const auto left = [&](double rest, float longest2) {
-    const double longest = rest * preset_.L + preset_.F_max / preset_.k_s;
+  const auto left = [&](const Direction& to, float longest2) {
+    const double longest = to.rest * preset_.L + preset_.F_max / spring_constant(preset_, to);
     return longest * (1 - rounding<R>)-std::sqrt(double(longest2));
   };
-  return std::min(left(directions[0].rest, report.straight), left(directions[2].rest, report.diagonal));
+  return std::min({left(directions[0], report.straight), left(directions[1], report.bending),
+                   left(directions[2], report.diagonal)});
 }
 
 /// Reported into the first slot, which has been read after the batch.

@@ -120,10 +120,10 @@ double Cloth::tear_overloaded(Tears& tears) const {
         const double length =
             glm::distance(x[std::size_t(i * lattice.columns + j)], x[std::size_t((i + di) * lattice.columns + j + dj)]);
         const double longer = length - rest * preset.L;
-        if (preset.k_s * longer > preset.F_max)
+        if (const double k = spring_constant(preset, directions[std::size_t(d)]); k * longer > preset.F_max)
           tears.tear(d, i, j);
         else
-          slack = std::min(slack, preset.F_max / preset.k_s - longer);
+          slack = std::min(slack, preset.F_max / k - longer);
       }
   return slack;
 }

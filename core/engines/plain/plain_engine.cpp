@@ -115,8 +115,7 @@ class PlainEngine final : public Engine, private GuardedSteps {
 
 void PlainEngine::take_preset(const Preset& preset) {
   cloth_.preset = preset;
-  guard_.set_rules(
-      {.tearing = preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth, .F_release = preset.F_release});
+  guard_.set_rules({.tearing = tears_springs(preset), .F_release = preset.F_release});
   guard_.set_scene(preset, lattice_, held_);
   guard_.invalidate();
 }
@@ -256,7 +255,7 @@ std::vector<StepFeature> PlainEngine::features() const {
   std::vector<StepFeature> all;
   for (const Force* force : {&force::bend, &force::damping, &force::wind}) all.push_back({force->name, force->on(p)});
   all.push_back({"bodies", !p.bodies.empty()});
-  all.push_back({"tearing", cloth && p.F_max > 0 && p.k_s > 0});
+  all.push_back({"tearing", tears_springs(p)});
   all.push_back({"pins", !pinned_.empty()});
   all.push_back({"hand", held_.particle >= 0});
   return all;

@@ -1,0 +1,34 @@
+// Fabrics that were measured, and a few that are estimated, as constants of a cloth.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+struct Fabric {
+  std::string_view key, name, namn;  ///< "jeans", "Jeans, 11 oz", Swedish
+  double mass;                       ///< kg/m²
+  double B;                          ///< N·m
+  double warp, weft;                 ///< resistance to a stretch at constant width, N/m
+  double shear;                      ///< to shear, N/m
+  bool measured;                     ///< or else estimated
+  std::string_view source;           ///< with what it says, a sentence
+};
+
+/// In the order of their stiffness.
+std::span<const Fabric> fabrics();
+
+/// (B/ρg)^⅓, m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B is,
+/// infinity without weight.
+double drape_length(double B, double mass, double g);
+
+/// The preset as a cloth of that fabric: m, B, k_warp, k_weft and k_shear by its spacing L, without k_b. k_s, k_d and
+/// dt stay.
+Preset with_fabric(Preset preset, const Fabric& fabric);
+/// Whether with_fabric would change nothing.
+bool is_fabric(const Preset& preset, const Fabric& fabric);
+
+}  // namespace tyglab
