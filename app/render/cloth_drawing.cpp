@@ -115,9 +115,9 @@ std::vector<ClothRenderer::Parts::SolidPart> ClothRenderer::Parts::parts_of(cons
   const PlacedBody at = placed(body);
   const glm::vec3 x(at.axes[0], at.axes[1], at.axes[2]), y(at.axes[3], at.axes[4], at.axes[5]),
       z(at.axes[6], at.axes[7], at.axes[8]), c(at.c[0], at.c[1], at.c[2]);
-  const auto mesh_at = [&](const SolidMesh& mesh, glm::vec3 half, glm::vec3 offset = glm::vec3(0)) {
+  const auto mesh_at = [&](const SolidMesh& unit, glm::vec3 half, glm::vec3 offset = glm::vec3(0)) {
     const glm::vec3 origin = c + offset.x * x + offset.y * y + offset.z * z;
-    return SolidPart{&mesh, glm::mat4(glm::vec4(half.x * x, 0), glm::vec4(half.y * y, 0), glm::vec4(half.z * z, 0),
+    return SolidPart{&unit, glm::mat4(glm::vec4(half.x * x, 0), glm::vec4(half.y * y, 0), glm::vec4(half.z * z, 0),
                                       glm::vec4(origin, 1))};
   };
   const float r = drawn_radius(body, preset.L), length = float(body.length / 2);

@@ -53,11 +53,11 @@ std::string body_text(const Body& body) {
     if (!shape_has(body.shape, row.key) || (later && field_text(row, body) == field_text(row, Body{}))) continue;
     text += ", " + json_text(row.key) + ": " + field_text(row, body);
   }
-  const auto key = [](const Body::Key& key) {
-    return "[" + shortest_number(key.t) + ", " + shortest_number(key.x.x) + ", " + shortest_number(key.x.y) + ", " +
-           shortest_number(key.x.z) + "]";
+  const auto key_text = [](const Body::Key& at) {
+    return "[" + shortest_number(at.t) + ", " + shortest_number(at.x.x) + ", " + shortest_number(at.x.y) + ", " +
+           shortest_number(at.x.z) + "]";
   };
-  if (!body.path.empty()) text += ", \"path\": [" + joined(body.path, ", ", key) + "]";
+  if (!body.path.empty()) text += ", \"path\": [" + joined(body.path, ", ", key_text) + "]";
   return text + "}";
 }
 

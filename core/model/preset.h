@@ -44,7 +44,7 @@ struct Body {
   glm::dvec3 turn{0, 0, 0};        ///< at the start about x, then y, then z, degrees
   glm::dvec3 velocity{0, 0, 0};    ///< of the center, m/s
   glm::dvec3 spin{0, 0, 0};        ///< angular velocity about the center, rad/s
-  std::vector<Key> path;           ///< of the center, straight between keys; empty: it moves at `velocity`
+  std::vector<Key> path = {};      ///< of the center, straight between keys; empty: it moves at `velocity`
   double friction = 0;             ///< Coulomb's μ
   double restitution = 0;          ///< e: 0 plastic, 1 elastic
   bool operator==(const Body&) const = default;

@@ -8,6 +8,7 @@
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -60,17 +61,24 @@ Pins random_pins(const Preset& p, StressRandom& random) {
   return pins;
 }
 
-/// A sphere or a plane, where the cloth is likely to meet it.
+/// A body of any shape, where the cloth is likely to meet it. It may move.
 Body random_body(const Preset& p, StressRandom& random) {
   Body body;
   for (const BodyRow& row : body_notation())
     if (random.chance(0.3)) randomise(body, row, random);
-  if (random.chance(0.3)) body.shape = Body::Shape::plane;
+  body.shape = Body::Shape(random.below(int(shape_names.size())));
   const double size = std::min(100.0, p.L * std::max(p.rows, p.columns));
   const auto near = [&](double middle) { return std::clamp(middle + random.uniform(-size, size), -1e3, 1e3); };
   if (random.chance(0.7)) {
     body.c = {near(p.x_0.x), near(p.x_0.y), near(p.x_0.z)}, body.y = near(p.x_0.y);
     body.r = std::clamp(size * random.decades(0.01, 1), 1e-3, 100.0);
+    body.length = std::clamp(size * random.decades(0.01, 1), 1e-3, 200.0);
+    for (int c = 0; c < 3; ++c) body.size[c] = std::clamp(size * random.decades(0.01, 2), 1e-3, 200.0);
+  }
+  if (random.chance(0.1)) {
+    body.velocity = glm::dvec3(0);
+    for (double t = 0; body.path.size() < 4; t += random.decades(1e-3, 1))
+      body.path.push_back({t, {near(body.c.x), near(body.c.y), near(body.c.z)}});
   }
   return body;
 }
@@ -121,6 +129,7 @@ Preset random_preset(StressRandom& random, const std::string& integrator) {
   p.precision = random.chance(0.5) ? Precision::float_ : Precision::double_;
   p.pins = random_pins(p, random);
   for (int n = std::max(0, random.below(6) - 2); n > 0; --n) p.bodies.push_back(random_body(p, random));
+  p.contact = contact_names[std::size_t(random.below(int(contact_names.size())))];
   choose_dt(p, random);
   if (p.kind == Kind::cloth && random.chance(0.15)) tear_apart(p, random);
   return p;
@@ -174,7 +183,8 @@ Edit random_edit(const Simulation& simulation, StressRandom& random, bool keeps_
       if (!preset.bodies.empty()) {
         const auto to = [&] { return random.uniform(-1, 1); };
         return what = "move a body", edit::MoveBody{random.below(int(preset.bodies.size())),
-                                                    preset.x_0 * 0.999 + glm::dvec3(to(), to(), to())};
+                                                    preset.x_0 * 0.999 + glm::dvec3(to(), to(), to()),
+                                                    random.chance(0.5) ? 0 : 1 + random.below(40)};
       }
       [[fallthrough]];
     case 6:

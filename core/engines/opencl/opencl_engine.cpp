@@ -154,7 +154,7 @@ void OpenClEngine<R>::upload_bodies_as(int steps) {
     for (const PlacedBody& body : placed_bodies(preset_.bodies, time_after(n, preset_.dt), preset_.dt, epsilon)) {
       list.push_back(body_as<B>(body));
       // Rounding of the quick test is left to the exact one, as in Band::touches.
-      list.back().reach = std::nextafter(R(body.reach * (1 + 5 * epsilon)), std::numeric_limits<R>::max());
+      list.back().reach = B(std::nextafter(R(body.reach * (1 + 5 * epsilon)), std::numeric_limits<R>::max()));
     }
   std::vector<std::byte> bytes(sizeof head + list.size() * sizeof list[0]);
   std::memcpy(bytes.data(), &head, sizeof head);

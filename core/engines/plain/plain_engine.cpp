@@ -251,7 +251,6 @@ void PlainEngine::go_on_from(const HeldMotion& then) {
 
 std::vector<StepFeature> PlainEngine::features() const {
   const Preset& p = cloth_.preset;
-  const bool cloth = p.kind == Kind::cloth;
   std::vector<StepFeature> all;
   for (const Force* force : {&force::bend, &force::damping, &force::wind}) all.push_back({force->name, force->on(p)});
   all.push_back({"bodies", !p.bodies.empty()});
