@@ -36,10 +36,13 @@ std::unique_ptr<Simulation> copied(const Simulation& original, const Snapshot& n
 
 /// The hand reaches its goal when the original's does, in the copy's own steps.
 Edit with_own_steps(const Edit& edit, const Simulation& original, const Simulation& copy) {
-  const auto* move = std::get_if<edit::MoveHand>(&edit);
-  if (move == nullptr) return edit;
-  const double end = original.time() + move->steps * original.preset().dt;
-  return edit::MoveHand{move->to, steps_until(copy, end)};
+  const auto own = [&](int steps) {
+    return steps > 0 ? steps_until(copy, original.time() + steps * original.preset().dt) : 0;
+  };
+  if (const auto* move = std::get_if<edit::MoveHand>(&edit)) return edit::MoveHand{move->to, own(move->steps)};
+  if (const auto* body = std::get_if<edit::MoveBody>(&edit))
+    return edit::MoveBody{body->index, body->c, own(body->steps)};
+  return edit;
 }
 
 }  // namespace

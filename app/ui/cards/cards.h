@@ -54,7 +54,7 @@ struct EnergyRow {
   double joule;
 };
 /// Rows of the card, in its order.
-std::vector<EnergyRow> energy_rows(const LedgerReading& reading);
+std::vector<EnergyRow> energy_rows(const LedgerReading& reading, const Preset& preset);
 
 /// "0.013 % of the scene's energy": what stands beside the unexplained energy.
 std::string share_text(const LedgerReading& reading);

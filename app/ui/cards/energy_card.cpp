@@ -142,14 +142,20 @@ void energy_curves(Ui& ui, ImVec2 size) {
 
 }  // namespace
 
-std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
+std::vector<EnergyRow> energy_rows(const LedgerReading& r, const Preset& preset) {
+  // What is off by default has a row where it is on, or has been.
+  static const Preset usual;
+  const auto counts = [&](const Force& force, double joule) {
+    return force.on(preset) || joule != 0 || &force == &force::wind || force.on(usual);
+  };
   std::vector<EnergyRow> rows{{EnergyKind::has, "kinetic", "½ m v² of every particle.", r.energy.kinetic}};
   for (const Force* force : force::all)
-    if (force->conserves) rows.push_back({EnergyKind::has, force->title, force->help, r.energy.of[*force]});
+    if (force->conserves && counts(*force, r.energy.of[*force]))
+      rows.push_back({EnergyKind::has, force->title, force->help, r.energy.of[*force]});
   rows.push_back({EnergyKind::has, total_row, "Sum of the energies above.", r.energy.total()});
   const auto add_works = [&](Force::Group group) {
     for (const Force* force : force::all)
-      if (!force->conserves && force->group == group)
+      if (!force->conserves && force->group == group && counts(*force, r.works.of[*force]))
         rows.push_back({EnergyKind::works, force->title, force->help, r.works.of[*force]});
   };
   add_works(Force::Group::internal);
@@ -173,7 +179,7 @@ float energy_card_height(const Ui& ui, float width) {
   const auto ledger = ui.session.simulation->ledger();
   const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
   float rows = 2 * card::line;  // what a full bar stands for, and since when is counted
-  for (const EnergyRow& row : energy_rows({})) rows += row_height_at_1(row, bar_column(ui, card_width(ui, width)));
+  for (const EnergyRow& row : energy_rows({}, ui.session.preset())) rows += row_height_at_1(row, bar_column(ui, card_width(ui, width)));
   return card_height(ui, energy_heading, rows + 4 * gap_at_1 + curves_at_1 + button);
 }
 
@@ -182,7 +188,7 @@ void energy_card(Ui& ui, float height) {
   if (const auto reading = ui.session.simulation->ledger(); open && reading) {
     const float width = card_width(ui);
     EnergyKind last = EnergyKind::has;
-    const std::vector<EnergyRow> rows = energy_rows(*reading);
+    const std::vector<EnergyRow> rows = energy_rows(*reading, ui.session.preset());
     double largest = 0;
     for (const EnergyRow& row : rows)
       if (from_zero(row)) largest = std::max(largest, std::abs(row.joule));
