@@ -9,6 +9,7 @@
 #include "app/base/text.h"
 #include "app/session/motion.h"
 #include "app/session/rebuild.h"
+#include "core/analysis/pierced.h"
 #include "core/forces/contact.h"
 #include "core/model/effect.h"
 #include "core/model/preset.h"
@@ -217,6 +218,8 @@ void Session::warn_of(const AdvanceResult& advance) {
     const bool said = energy_warning_preset && changes(*energy_warning_preset, preset()).within(motionless);
     std::string excess = said ? "" : energy_in_excess(simulation->excess(), preset());
     if (!excess.empty()) messages.warning(std::move(excess)), energy_warning_preset = preset();
+    std::string pierced = warned_pierced ? "" : pierced_in_words(*simulation);
+    if (!pierced.empty()) messages.warning(std::move(pierced)), warned_pierced = true;
   }
   if (advance.released) messages.note("The hand let go: its force exceeded F_release.");
 }

@@ -87,12 +87,13 @@ struct Session {
 
   Wants wants;  ///< of this update; labs add theirs
   SessionCounts counts;
-  std::int64_t steps_made = 0;                  ///< since the last update
-  double now = 0;                               ///< s since the session began
-  double last_change = 0;                       ///< s, when constants changed last, to tell gestures apart
-  double again_at = 0;                          ///< s: update() wants to be called by then, though nothing moves
-  bool warned_left_inside = false;              ///< that overlapping bodies keep particles inside, said once a session
-  int updates_unlooked = 0;                     ///< since the check for energy added by errors of the method
+  std::int64_t steps_made = 0;      ///< since the last update
+  double now = 0;                   ///< s since the session began
+  double last_change = 0;           ///< s, when constants changed last, to tell gestures apart
+  double again_at = 0;              ///< s: update() wants to be called by then, though nothing moves
+  bool warned_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
+  bool warned_pierced = false;      ///< that a body comes through the cloth, likewise
+  int updates_unlooked = 0;         ///< since the check for that, and for energy that the method's errors added
   std::optional<Preset> energy_warning_preset;  ///< the constants at the last such warning
   bool warned_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
   bool warned_coarse = false;       ///< that the precision is too coarse for these constants, until it no longer is

@@ -1,14 +1,20 @@
 // Bodies: bounces, slides, friction.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/integrators/scheme.h"
 #include "core/verify/trial.h"
 
 namespace tyglab::verify {
 namespace {
+
+using std::numbers::pi;
 
 /// A particle that no spring pulls; another hangs far above, out of the way.
 Preset particle(std::string_view method, glm::dvec3 x, glm::dvec3 v) {
@@ -30,9 +36,10 @@ Body ball(double r, double friction, double restitution) {
   return body;
 }
 
-/// Methods of fixed dt whose free fall is exact.
-constexpr std::array exact_falls{"verlet",          "velocity_verlet",   "rk4",    "rkn4",
-                                 "force_gradient4", "implicit_midpoint", "tr_bdf2"};
+/// Methods of second order and above, whose free fall is exact: those of fixed dt, and one that chooses its steps.
+constexpr std::array exact_methods{"verlet",          "velocity_verlet",   "rk4",     "rkn4",
+                                   "force_gradient4", "implicit_midpoint", "tr_bdf2", "dopri5"};
+constexpr std::span exact_falls = std::span(exact_methods).first<exact_methods.size() - 1>();
 
 /// The height that the particle would reach from where it is.
 double reaches(const Simulation& simulation) {
@@ -116,7 +123,7 @@ void slide(Trial& trial) {
 
 void slope(Trial& trial) {
   // On a sphere at 20° from its top: the friction below which it slides.
-  constexpr double r = 0.3, angle = 20 * 3.14159265358979323846 / 180;
+  constexpr double r = 0.3, angle = pi / 9;
   const glm::dvec3 start = r * glm::dvec3(std::sin(angle), std::cos(angle), 0);
   for (const char* method : {"verlet", "rk4", "implicit_midpoint"})
     trial.compare(std::tan(angle),
@@ -165,6 +172,167 @@ void fast_particle(Trial& trial) {
   }
 }
 
+void inclined_plane(Trial& trial) {
+  constexpr double angle = pi / 6, t = 0.5;
+  const glm::dvec3 start(0, 0.2, 0), down(std::cos(angle), -std::sin(angle), 0);
+  for (const char* method : exact_methods)
+    for (const double friction : {0.0, 0.3, 0.7}) {
+      Preset preset = particle(method, start, {0, 0, 0});
+      Body plane = floor(friction, 0);
+      plane.y = start.y, plane.turn.z = -30;
+      preset.bodies = {plane};
+      Simulation simulation = trial.start(preset);
+      trial.advance(simulation, std::lround(t / preset.dt));
+      const double exact = std::max(0.0, std::sin(angle) - friction * std::cos(angle)) * g * t * t / 2;
+      const glm::dvec3 way = simulation.position(0, 0) - start;
+      const std::string at = std::string(method) + ", friction " + std::to_string(friction).substr(0, 3);
+      trial.compare(exact, glm::dot(way, down), at);
+      // And nowhere else.
+      trial.compare(0, glm::length(way - glm::dot(way, down) * down), at);
+    }
+}
+
+void belt(Trial& trial) {
+  constexpr double friction = 0.4, speed = 1.5;
+  for (const char* method : exact_methods) {
+    Preset preset = particle(method, {0, 0, 0}, {0, 0, 0});
+    Body belt = floor(friction, 0);
+    belt.velocity.x = speed;
+    preset.bodies = {belt};
+    Simulation simulation = trial.start(preset);
+    for (int n = 0; n < 8; ++n) {
+      trial.advance(simulation, 100);
+      trial.compare(std::min(speed, friction * g * simulation.time()), simulation.particle(0, 0).v.x, method);
+    }
+  }
+}
+
+void lift(Trial& trial) {
+  // It moves for 0.3 s, and stops at once.
+  constexpr double speed = 0.7, stops = 0.3;
+  for (const char* method : exact_methods) {
+    Preset preset = particle(method, {0, 0, 0}, {0, 0, 0});
+    Body lift;
+    lift.shape = Body::Shape::box, lift.size = {0.4, 0.2, 0.4};
+    lift.path = {{0, {0, -0.1, 0}}, {stops, {0, speed * stops - 0.1, 0}}};
+    preset.bodies = {lift};
+    Simulation simulation = trial.start(preset);
+    trial.advance(simulation, 200);
+    trial.compare(speed * simulation.time(), simulation.position(0, 0).y, std::string(method) + ", on the lift");
+    trial.advance(simulation, 150);
+    trial.compare(speed * stops + speed * speed / (2 * g), reaches(simulation), std::string(method) + ", in flight");
+    trial.advance(simulation, 150);
+    trial.compare(speed * stops, simulation.position(0, 0).y, std::string(method) + ", back on it");
+  }
+}
+
+/// A particle on a turntable, with the table's speed.
+constexpr double from_axis = 0.5, turns_at = 3;  // m, rad/s
+Preset on_turntable(std::string_view method, double friction, double dt) {
+  Preset preset = particle(method, {from_axis, 0, 0}, {0, 0, -turns_at * from_axis});
+  Body table = floor(friction, 0);
+  table.spin.y = turns_at;
+  preset.dt = dt, preset.bodies = {table};
+  return preset;
+}
+
+void turntable_limit(Trial& trial) {
+  for (const char* method : {"verlet", "rk4", "implicit_midpoint"})
+    trial.compare(turns_at * turns_at * from_axis / g,
+                  bisect(0.4, 0.5, 1e4,
+                         [&](double friction) {
+                           Simulation simulation = trial.start(on_turntable(method, friction, 1e-3));
+                           trial.advance(simulation, 3000);
+                           return glm::length(simulation.position(0, 0)) > from_axis + 1e-3;
+                         }),
+                  method);
+}
+
+void turntable(Trial& trial) {
+  for (const char* method : exact_falls) {
+    std::vector<double> off;
+    for (const double dt : {4e-3, 2e-3, 1e-3}) {
+      Simulation simulation = trial.start(on_turntable(method, 0.6, dt));
+      trial.advance(simulation, std::lround(1 / dt));
+      const double angle = turns_at * simulation.time();
+      const glm::dvec3 exact = from_axis * glm::dvec3(std::cos(angle), 0, -std::sin(angle));
+      off.push_back(glm::distance(simulation.position(0, 0), exact));
+    }
+    trial.compare(from_axis, from_axis + off.back(), method);
+    trial.converges(2, off, method);
+  }
+}
+
+void thrown_by_ball(Trial& trial) {
+  // At 90 m/s the ball passes through the particle's place within one step.
+  constexpr double e = 0.5, distance = 1, r = 0.02;
+  for (const Scheme& method : schemes())
+    for (const double speed : {3.0, 90.0}) {
+      Preset preset = particle(method.name, {0, 0, 0}, {0, 0, 0});
+      preset.g = 0;
+      Body thrower = ball(r, 0.3, e);
+      thrower.c.x = -distance, thrower.velocity.x = speed;
+      preset.bodies = {thrower};
+      Simulation simulation = trial.start(preset);
+      const double meets = (distance - r) / speed;
+      trial.advance(simulation, std::lround(std::ceil(2 * meets / preset.dt)));
+      const std::string at = std::string(method.name) + ", " + std::to_string(int(speed)) + " m/s";
+      trial.compare((1 + e) * speed, simulation.particle(0, 0).v.x, at);
+      if (method.order_undamped >= 2)
+        trial.compare((1 + e) * speed, simulation.position(0, 0).x / (simulation.time() - meets), at + ", on average");
+    }
+}
+
+void box_edge(Trial& trial) {
+  // It meets the edge in the middle of a step. Until the end of that step it is held.
+  constexpr double speed = 1, to_edge = 0.2, top = 0.25, falls = 0.2;
+  for (const char* method : exact_falls) {
+    std::vector<double> errors;
+    double fallen = 0, exact = 0;
+    for (const int steps : {100, 200, 400}) {
+      Preset preset = particle(method, {0, top, 0}, {speed, 0, 0});
+      preset.dt = to_edge / speed / (steps + 0.5);
+      Body box;
+      box.shape = Body::Shape::box, box.size = {2 * to_edge, 2 * top, 0.4};
+      preset.bodies = {box};
+      Simulation simulation = trial.start(preset);
+      trial.advance(simulation, steps);
+      trial.compare(top, simulation.position(0, 0).y, std::string(method) + ", before the edge");
+      trial.advance(simulation, std::lround(falls / preset.dt));
+      exact = g * std::pow(simulation.time() - to_edge / speed, 2) / 2, fallen = top - simulation.position(0, 0).y;
+      errors.push_back(error_of(exact, fallen));
+    }
+    trial.compare(exact, fallen, method);
+    trial.converges(1, errors, method);
+  }
+}
+
+/// A thread held at both ends, without weight, over a drum that lifts it and turns below it.
+void capstan(Trial& trial) {
+  constexpr int particles = 61;
+  for (const double friction : {0.1, 0.2, 0.3}) {
+    Preset preset = quiet_cloth(particles, 1, "verlet");
+    preset.L = 1.0 / (particles - 1), preset.m = 2e-4, preset.k_s = 200, preset.k_d = 0.2, preset.dt = 1e-4;
+    preset.tilt_deg = 0, preset.x_0 = {0, 0, -0.5};  // along z
+    preset.pins.mode = Pins::Mode::list;
+    preset.pins.list = {{0, 0}, {particles - 1, 0}};
+    Body drum;
+    drum.shape = Body::Shape::cylinder, drum.friction = friction;
+    drum.r = 0.2, drum.length = 0.2, drum.turn.z = 90, drum.spin.x = 5;
+    drum.path = {{0, {0, -0.25, 0}}, {0.5, {0, 0.1, 0}}};
+    preset.bodies = {drum};
+    Simulation simulation = trial.start(preset);
+    trial.advance(simulation, std::lround(6 / preset.dt));
+    const auto spring = [&](int i) { return simulation.position(i + 1, 0) - simulation.position(i, 0); };
+    const glm::dvec3 first = spring(1), last = spring(particles - 3);
+    // By so much the thread turns between its ends.
+    const double angle = std::acos(glm::dot(glm::normalize(first), glm::normalize(last)));
+    const double one = glm::length(first) - preset.L, other = glm::length(last) - preset.L;
+    trial.compare(std::exp(friction * angle), std::max(one, other) / std::min(one, other),
+                  "friction " + std::to_string(friction).substr(0, 3));
+  }
+}
+
 }  // namespace
 
 std::span<const Case> contact_cases() {
@@ -192,6 +360,38 @@ std::span<const Case> contact_cases() {
            "A particle falls at 1000 m/s through several diameters of a sphere in one step, and bounces off its top.",
            "$y = r + v'(dt - \\tau) - \\tfrac12 g (dt - \\tau)^2$, $\\tau$ the time of impact", "Newton; report 2.1.5",
            "m", 1e-9, 0, fast_particle},
+      Case{
+          "inclined_plane", "Slide down a tilted plane",
+          "A particle is set down on a plane tilted by 30°, without friction, with little, and with enough to hold it.",
+          "$s = \\tfrac12 g\\,(\\sin\\theta - \\mu\\cos\\theta)\\,t^2$, 0 where $\\mu \\ge \\tan\\theta$",
+          "C. A. de Coulomb (1785)", "m", 1e-9, 0, inclined_plane},
+      Case{"belt", "A conveyor belt",
+           "A particle is set down on a belt that moves: friction drags it along until it is as fast as the belt.",
+           "$v = \\min(\\mu g t, V)$", "C. A. de Coulomb (1785)", "m/s", 1e-9, 0, belt},
+      Case{"lift", "A lift that stops at once",
+           "A box lifts a particle and stops: the particle flies on, and falls back onto the box.",
+           "$y = V t$ on the lift, $h = \\frac{V^2}{2g}$ above it in flight", "Free fall, seen from the lift", "m",
+           1e-9, 0, lift},
+      Case{"turntable_limit", "What a turntable holds",
+           "A particle moves with a turntable, 0.5 m from its axis: the friction from which it stays, by bisection.",
+           "$\\mu g = \\omega^2 r$", "C. Huygens, De vi centrifuga (1703); Coulomb", "", 1e-4, 0, turntable_limit},
+      Case{"turntable", "A turn on a turntable",
+           "With enough friction the particle goes around with the table: its distance from its place on it after 1 s, "
+           "added to its distance from the axis.",
+           "$x = r\\,(\\cos\\omega t, 0, -\\sin\\omega t)$", "Uniform rotation", "m", 1e-4, 0.3, turntable},
+      Case{
+          "thrown_by_ball", "A ball throws a particle ahead",
+          "A ball flies into a particle at rest, slowly and so fast that it passes its place within a step, with every "
+          "method.",
+          "$v = (1 + e)\\,V$", "I. Newton's law of restitution, seen from the ball", "m/s", 1e-9, 0, thrown_by_ball},
+      Case{"box_edge", "Over the edge of a box",
+           "A particle slides on a box, over its edge, and falls. In the step in which it passes the edge it is held "
+           "until the end of the step, so the fall is of first order.",
+           "$s = \\tfrac12 g\\,(t - d/v)^2$", "Free fall", "m", 5e-3, 0.3, box_edge},
+      Case{"capstan", "A thread over a drum that turns",
+           "A thread without weight, held at both ends, lies over a drum that turns below it: friction pulls one side "
+           "taut.",
+           "$\\frac{T_2}{T_1} = e^{\\mu\\theta}$", "L. Euler (1762); J. A. Eytelwein (1808)", "", 0.01, 0, capstan},
   };
   return rows;
 }

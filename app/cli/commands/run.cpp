@@ -14,6 +14,7 @@
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
 #include "app/process/program_run.h"
+#include "core/analysis/pierced.h"
 #include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
 #include "core/integrators/scheme.h"
@@ -408,6 +409,8 @@ int run(const RunOptions& options) {
   if (simulation.left_inside() > 0)
     std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
               << " left inside a body, since bodies overlap; move them apart.\n";
+  if (const std::string pierced = in_haste ? "" : pierced_in_words(simulation); !pierced.empty())
+    std::cerr << "tyglab: " << pierced << '\n';
   if (stepper.interrupted())
     std::cerr
         << "tyglab: Interrupted; what was written so far has whole rows and frames, and no older file was replaced.\n";
