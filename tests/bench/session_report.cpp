@@ -92,7 +92,7 @@ Json energy(const Ui& ui) {
   const auto ledger = ui.session.simulation->ledger();
   if (!ledger) return nullptr;
   Json json = Json::object();
-  for (const EnergyRow& row : energy_rows(*ledger)) json[std::string(row.name)] = row.joule;
+  for (const EnergyRow& row : energy_rows(*ledger, ui.session.preset())) json[std::string(row.name)] = row.joule;
   json["share"] = ledger->share();
   return json;
 }

@@ -179,7 +179,8 @@ float energy_card_height(const Ui& ui, float width) {
   const auto ledger = ui.session.simulation->ledger();
   const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
   float rows = 2 * card::line;  // what a full bar stands for, and since when is counted
-  for (const EnergyRow& row : energy_rows({}, ui.session.preset())) rows += row_height_at_1(row, bar_column(ui, card_width(ui, width)));
+  for (const EnergyRow& row : energy_rows({}, ui.session.preset()))
+    rows += row_height_at_1(row, bar_column(ui, card_width(ui, width)));
   return card_height(ui, energy_heading, rows + 4 * gap_at_1 + curves_at_1 + button);
 }
 
