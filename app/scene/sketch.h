@@ -18,14 +18,15 @@ struct SceneSketch {
   static constexpr float aspect = 1.6f;  ///< width to height
   struct Corner {
     glm::vec2 at;
-    float light;  ///< 0 to 1
+    float light;        ///< 0 to 1
+    bool cloth = true;  ///< or of a body
   };
   struct Ball {
     glm::vec2 at;
     float radius;        ///< part of the height
-    std::size_t behind;  ///< triangles that are farther away
+    std::size_t behind;  ///< triangles that are drawn before it
   };
-  std::vector<Corner> corners;
+  std::vector<Corner> corners;                          ///< of the cloth and of bodies other than spheres
   std::vector<std::array<std::uint16_t, 3>> triangles;  ///< the farthest first
   std::vector<Ball> balls;
   std::vector<glm::vec2> line;  ///< of a spring with its weight at the end

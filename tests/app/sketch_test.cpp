@@ -20,8 +20,8 @@ const auto go_on = [] { return false; };
 
 bool inside(const SceneSketch& sketch) {
   return std::all_of(sketch.corners.begin(), sketch.corners.end(), [](const SceneSketch::Corner& corner) {
-    return corner.at.x >= 0 && corner.at.x <= 1 && corner.at.y >= 0 && corner.at.y <= 1 && corner.light >= 0 &&
-           corner.light <= 1;
+    const bool in_picture = corner.at.x >= 0 && corner.at.x <= 1 && corner.at.y >= 0 && corner.at.y <= 1;
+    return (in_picture || !corner.cloth) && corner.light >= 0 && corner.light <= 1;
   });
 }
 

@@ -16,7 +16,7 @@ import tempfile
 SECONDS = "0.1"
 BOUNDS = {"float": 2e-5, "double": 1e-12}  # m, of any coordinate; measured: 1.3e-6 and 4.8e-15
 PRESETS = ["bounce", "bow", "curtain", "cutting", "denim", "diagonal", "explodes", "flag", "fold_with_k_b", "fold_without_k_b",
-           "hanging", "one_weight", "rubber_mat", "sphere", "stiff_sheet", "taut_sheet", "tearing"]
+           "hanging", "one_weight", "rubber_mat", "sphere", "stiff_sheet", "table", "taut_sheet", "tearing", "turntable"]
 
 
 def positions(file):

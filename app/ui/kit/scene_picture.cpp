@@ -8,10 +8,11 @@
 namespace tyglab {
 namespace {
 
-ImU32 lit(const Tokens& c, float light) {
+ImU32 lit(const Tokens& c, const SceneSketch::Corner& corner) {
+  if (!corner.cloth) return mixed(c.ground, c.quiet, 0.45f + 0.35f * std::clamp(corner.light, 0.f, 1.f));
   const ImU32 shade = mixed(c.ground, c.accent, c.light ? 0.75f : 0.35f),
               bright = mixed(c.accent, rgb(0xffffff), 0.55f);
-  return mixed(shade, bright, std::clamp(light, 0.f, 1.f));
+  return mixed(shade, bright, std::clamp(corner.light, 0.f, 1.f));
 }
 
 /// Some of the triangles; corners are shared.
@@ -23,7 +24,7 @@ void draw_triangles(ImDrawList& draw, const Tokens& c, const SceneSketch& sketch
   const ImVec2 white = draw._Data->TexUvWhitePixel;
   for (std::size_t n = from; n < to; ++n)
     for (const std::uint16_t corner : sketch.triangles[n]) draw.PrimWriteIdx(ImDrawIdx(first + corner));
-  for (std::size_t n = 0; n < at.size(); ++n) draw.PrimWriteVtx(at[n], white, lit(c, sketch.corners[n].light));
+  for (std::size_t n = 0; n < at.size(); ++n) draw.PrimWriteVtx(at[n], white, lit(c, sketch.corners[n]));
 }
 
 }  // namespace
