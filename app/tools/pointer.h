@@ -41,10 +41,11 @@ struct Tool {
     std::optional<Pins::Site> site;
   };
   Rest rest;
-  unsigned knife_gesture = 0;  ///< each stroke likewise
-  unsigned wind_gesture = 0;   ///< each drag of the wind's arrow is undone by itself
-  glm::dvec3 wind{0};          ///< N, as its arrow was pressed
-  glm::vec2 wind_foot{0};      ///< where that arrow begins, pixels in the first picture
+  unsigned knife_gesture = 0;              ///< each stroke likewise
+  unsigned wind_gesture = 0;               ///< each drag of the wind's arrow is undone by itself
+  glm::dvec3 Preset::*wind_key = nullptr;  ///< what its arrow stood for when it was pressed
+  glm::dvec3 wind{0};                      ///< N or m/s, as its arrow was pressed
+  glm::vec2 wind_foot{0};                  ///< where that arrow begins, pixels in the first picture
   int body = -1;
   glm::dvec3 body_plane{0}, body_offset{0};
   std::optional<glm::dvec3> body_to;  ///< where the steps of this frame take the body, with the drag's velocity

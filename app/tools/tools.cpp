@@ -96,33 +96,36 @@ namespace {
 
 constexpr float usual = 80, longest = 140, handle = 14, margin = 20, calm = 8;  // pixels at scale 1
 constexpr float from_right = 132, from_below = 120;
-constexpr double most = 1e3;                    // N, of a component
+constexpr double most = 1e3;                    // N or m/s, of a component
+constexpr double gentle_breeze = 3;             // m/s
 constexpr unsigned first_gesture = 0x77000000;  // apart from those of sliders and bodies
 
-/// N: what an arrow of the usual length stands for.
+/// N or m/s: what an arrow of the usual length stands for.
 double unit_of(const Tools& tools) {
   const Preset& saved = tools.session.document.saved;
-  if (const double W = glm::length(saved.W); W > 0) return W;
+  const auto key = wind_of_arrow(tools);
+  if (const double wind = glm::length(saved.*key); wind > 0) return wind;
+  if (key == &Preset::u) return gentle_breeze;
   const double weight = std::abs(saved.m * saved.g);
   return weight > 0 ? weight : 1e-3;
 }
 
 /// The nearest axis, if Ctrl asks for one.
-glm::dvec3 snapped(const glm::dvec3& W) {
-  const glm::dvec3 size = glm::abs(W);
+glm::dvec3 snapped(const glm::dvec3& wind) {
+  const glm::dvec3 size = glm::abs(wind);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   glm::dvec3 on_axis(0);
-  on_axis[axis] = W[axis];
+  on_axis[axis] = wind[axis];
   return on_axis;
 }
 
 /// Components with that many digits as the largest needs for three.
-glm::dvec3 tidy(const glm::dvec3& W) {
-  const glm::dvec3 size = glm::abs(W);
+glm::dvec3 tidy(const glm::dvec3& wind) {
+  const glm::dvec3 size = glm::abs(wind);
   const double largest = std::max({size.x, size.y, size.z});
   if (!(largest > 0)) return glm::dvec3(0);
   const double digits = std::pow(10, 2 - std::floor(std::log10(largest)));
-  return glm::clamp(glm::round(W * digits) / digits, -most, most);
+  return glm::clamp(glm::round(wind * digits) / digits, -most, most);
 }
 
 /// How far a place lies beyond the part of the first picture in which the tip can be seen and taken, px; none behind
@@ -135,14 +138,14 @@ std::optional<glm::vec2> beyond(const Tools& tools, const glm::dvec3& place) {
 }
 
 /// An arrow from that pixel, as long as the wind asks for.
-WindArrow arrow_from(const Tools& tools, glm::vec2 foot, const glm::dvec3& W) {
+WindArrow arrow_from(const Tools& tools, glm::vec2 foot, const glm::dvec3& wind) {
   const glm::vec2 size = tools.scene.viewport.size();
   const glm::dvec3 base =
       tools.scene.camera.unproject_in_camera_plane(foot, glm::dvec3(tools.scene.camera.target), size);
   const double per_pixel = tools.scene.camera.metres_per_pixel(base, size.y);
-  const double per_newton = tools.px(usual) * per_pixel / unit_of(tools);
-  const double length = glm::length(W) * per_newton, room = tools.px(longest) * per_pixel;
-  return {base, base + W * per_newton * (length > room ? room / length : 1), per_newton};
+  const double per_unit = tools.px(usual) * per_pixel / unit_of(tools);
+  const double length = glm::length(wind) * per_unit, room = tools.px(longest) * per_pixel;
+  return {base, base + wind * per_unit * (length > room ? room / length : 1), per_unit};
 }
 
 /// Where the arrow begins: near the lower right corner, moved by as much as the tip would lie outside. While its tip is
@@ -153,20 +156,30 @@ glm::vec2 foot_of(const Tools& tools) {
   const glm::vec2 edge = glm::min(glm::vec2(tools.px(margin)), size / 2.f);
   glm::vec2 foot = glm::max(size - away, size / 2.f);
   for (int n = 0; n < 3; ++n)  // in perspective the arrow's length changes a little as it moves
-    if (const auto over = beyond(tools, arrow_from(tools, foot, tools.session.requested_preset().W).tip))
+    if (const auto over = beyond(tools, arrow_from(tools, foot, requested_wind(tools)).tip))
       foot = glm::clamp(foot - *over, edge, size - edge);
   return foot;
 }
 
 }  // namespace
 
-bool wind_arrow_shown(const Tools& tools) {
-  return tools.session.preset().kind == Kind::cloth &&
-         tools.wind_arrow.value_or(tools.session.requested_preset().W != glm::dvec3(0));
+glm::dvec3 Preset::*wind_of_arrow(const Tools& tools) {
+  if (tools.tool.kind == Tool::Kind::wind) return tools.tool.wind_key;
+  const Preset& preset = tools.session.requested_preset();
+  return preset.air_density > 0 && preset.W == glm::dvec3(0) ? &Preset::u : &Preset::W;
 }
 
-WindArrow wind_arrow(const Tools& tools, const glm::dvec3& W) {
-  WindArrow arrow = arrow_from(tools, foot_of(tools), W);
+glm::dvec3 requested_wind(const Tools& tools) {
+  return tools.session.requested_preset().*wind_of_arrow(tools);
+}
+
+bool wind_arrow_shown(const Tools& tools) {
+  return tools.session.preset().kind == Kind::cloth &&
+         tools.wind_arrow.value_or(requested_wind(tools) != glm::dvec3(0));
+}
+
+WindArrow wind_arrow(const Tools& tools, const glm::dvec3& wind) {
+  WindArrow arrow = arrow_from(tools, foot_of(tools), wind);
   const auto seen = [&](double part) {
     const auto over = beyond(tools, glm::mix(arrow.base, arrow.tip, part));
     return over && glm::length(*over) < 1;
@@ -180,16 +193,17 @@ WindArrow wind_arrow(const Tools& tools, const glm::dvec3& W) {
 
 bool on_wind_tip(const Tools& tools, glm::vec2 at) {
   if (!wind_arrow_shown(tools)) return false;
-  const auto tip = tools.scene.camera.project(wind_arrow(tools, tools.session.requested_preset().W).tip,
-                                              tools.scene.viewport.size());
+  const auto tip =
+      tools.scene.camera.project(wind_arrow(tools, requested_wind(tools)).tip, tools.scene.viewport.size());
   return tip && glm::distance(*tip, at) <= tools.px(handle);
 }
 
 void take_wind(Tools& tools) {
   Tool& tool = tools.tool;
   tool.wind_foot = foot_of(tools);
+  tool.wind_key = wind_of_arrow(tools);
   tool.kind = Tool::Kind::wind;
-  tool.wind = tools.session.requested_preset().W;
+  tool.wind = requested_wind(tools);
   tool.wind_gesture = std::max(tool.wind_gesture + 1, first_gesture);
   tools.wind_arrow = true;  // a wind that is dragged to nothing can be taken up again
 }
@@ -203,12 +217,12 @@ void drag_wind(Tools& tools) {
   const double per_pixel = tools.scene.camera.metres_per_pixel(arrow.base, size.y);
   if ((tools.input.mods & GLFW_MOD_SHIFT) != 0)
     way = double(tool.press.y - tool.at.y) * per_pixel * glm::dvec3(tools.scene.camera.forward());
-  glm::dvec3 W = tool.wind + way / arrow.metres_per_newton;
-  if ((tools.input.mods & GLFW_MOD_CONTROL) != 0) W = snapped(W);
-  if (glm::length(W) * arrow.metres_per_newton < tools.px(calm) * per_pixel) W = glm::dvec3(0);
+  glm::dvec3 wind = tool.wind + way / arrow.metres_per_unit;
+  if ((tools.input.mods & GLFW_MOD_CONTROL) != 0) wind = snapped(wind);
+  if (glm::length(wind) * arrow.metres_per_unit < tools.px(calm) * per_pixel) wind = glm::dvec3(0);
   Preset next = tools.session.requested_preset();
-  next.W = tool.at == tool.press ? tool.wind : tidy(W);
-  if (next.W != tools.session.requested_preset().W) tools.session.propose(std::move(next), tool.wind_gesture);
+  next.*tool.wind_key = tool.at == tool.press ? tool.wind : tidy(wind);
+  if (next.*tool.wind_key != requested_wind(tools)) tools.session.propose(std::move(next), tool.wind_gesture);
 }
 
 }  // namespace tyglab

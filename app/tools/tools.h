@@ -61,19 +61,25 @@ struct Tools;
 
 /// An arrow in space, near the lower right corner of the first picture.
 struct WindArrow {
-  glm::dvec3 base{0}, tip{0};    ///< m
-  double metres_per_newton = 0;  ///< so long is what is drawn of W, unless it would leave its place
+  glm::dvec3 base{0}, tip{0};  ///< m
+  double metres_per_unit = 0;  ///< so long is what is drawn of 1 N or 1 m/s, unless it would leave its place
 };
+
+/// What the arrow stands for: the wind W (N), or in a scene with air and no W the air's velocity u (m/s). A drag keeps
+/// to its own.
+glm::dvec3 Preset::*wind_of_arrow(const Tools& tools);
+/// The wind that is asked for, N or m/s.
+glm::dvec3 requested_wind(const Tools& tools);
 
 /// Whether the arrow is shown: while there is wind, or as it was asked for.
 bool wind_arrow_shown(const Tools& tools);
-/// The arrow of a wind W, N: as long as 80 pixels for the wind of the preset as it was opened, or, where that has
-/// none, for the weight of a particle; shorter where it would leave the picture.
-WindArrow wind_arrow(const Tools& tools, const glm::dvec3& W);
+/// The arrow of such a wind: as long as 80 pixels for the wind of the preset as it was opened, or, where that has none,
+/// for the weight of a particle or for 3 m/s; shorter where it would leave the picture.
+WindArrow wind_arrow(const Tools& tools, const glm::dvec3& wind);
 /// Whether a press at that pixel of the first picture takes the tip.
 bool on_wind_tip(const Tools& tools, glm::vec2 at);
-/// The tip has been pressed, and is dragged: W follows in the plane of the camera; with Shift along the view; with Ctrl
-/// along the nearest axis. Every drag is one change to undo.
+/// The tip has been pressed, and is dragged: the wind follows in the plane of the camera; with Shift along the view;
+/// with Ctrl along the nearest axis. Every drag is one change to undo.
 void take_wind(Tools& tools);
 void drag_wind(Tools& tools);
 

@@ -101,6 +101,25 @@ double kinetic(const State& state, double m) {
   return sum;
 }
 
+TEST_CASE("the hand feels the air on its particle, with every method") {
+  for (const Scheme& method : schemes()) {
+    CAPTURE(std::string(method.name));
+    Preset preset = sheet(std::string(method.name), 90);
+    preset.B = 0, preset.k_d = 0, preset.u = {0, 0, 5}, preset.C_N = 1.1;
+    Simulation simulation(preset);
+    simulation.apply(edit::Grab{4, 4});
+    simulation.advance(2);
+    // A third of eight triangles of L²/2; springs hardly pull yet.
+    const double F = 8.0 / 3 * rho * preset.C_N * preset.L * preset.L / 4 * 25;
+    MESSAGE(std::string(method.name) << ": " << simulation.hand_force().z / F - 1);
+    CHECK(std::abs(simulation.hand_force().z / F - 1) < 0.01);
+    preset.air_density = 0;
+    simulation.apply(edit::Change{preset});
+    simulation.advance(1);
+    CHECK(std::abs(simulation.hand_force().z) < 0.02 * F);
+  }
+}
+
 TEST_CASE("still air takes kinetic energy in every step of every method, however long dt is") {
   for (const Scheme& method : schemes())
     for (const double dt : {1e-3, 0.3})

@@ -171,8 +171,7 @@ TEST_CASE("the same drag cuts upwards, or along its path") {
 }
 
 glm::vec2 tip(const test::Desk& desk) {
-  return *desk.scene.camera.project(wind_arrow(desk.tools, desk.session.requested_preset().W).tip,
-                                    desk.scene.viewport.size());
+  return *desk.scene.camera.project(wind_arrow(desk.tools, requested_wind(desk.tools)).tip, desk.scene.viewport.size());
 }
 
 TEST_CASE("the wind's arrow is shown while there is wind, or as it is asked for") {
@@ -223,6 +222,43 @@ TEST_CASE("Shift drags along the view, Ctrl snaps to an axis, and at its foot th
   calm.drag(from, foot + glm::vec2(2, 1));
   CHECK(calm.session.preset().W == glm::dvec3(0));
   CHECK(wind_arrow_shown(calm.tools));
+}
+
+TEST_CASE("where there is air and no W, the arrow is that of the air's velocity, and a drag keeps to its own wind") {
+  Preset preset = upright();
+  preset.u = {2, 0, 0.2};
+  CHECK_FALSE(wind_arrow_shown(Hand(preset).tools));  // without air u does nothing
+  preset.air_density = 1.2;
+  Hand breeze(preset);
+  CHECK(wind_arrow_shown(breeze.tools));
+  CHECK(wind_of_arrow(breeze.tools) == &Preset::u);
+  const glm::vec2 from = tip(breeze);
+  breeze.drag(from, from + glm::vec2(0, -80));  // as long as u was
+  CHECK(breeze.session.preset().u.x == doctest::Approx(2).epsilon(0.02));
+  CHECK(breeze.session.preset().u.y == doctest::Approx(glm::length(preset.u)).epsilon(0.02));
+  CHECK(breeze.session.preset().u.z == doctest::Approx(0.2).epsilon(0.02));
+  CHECK(breeze.session.preset().W == glm::dvec3(0));
+  breeze.ui.command("undo");
+  breeze.act();
+  CHECK(breeze.session.preset().u == preset.u);
+
+  Preset still = preset;
+  still.u = {0, 0, 0};
+  Hand calm(still);
+  CHECK_FALSE(wind_arrow_shown(calm.tools));
+  calm.ui.command("toggle_wind_arrow");
+  calm.act();
+  calm.drag(tip(calm), tip(calm) + glm::vec2(80, 0));
+  CHECK(calm.session.preset().u.x == doctest::Approx(3).epsilon(0.02));  // m/s
+
+  preset.W = {0.004, 0, 0};
+  Hand both(preset);
+  CHECK(wind_of_arrow(both.tools) == &Preset::W);
+  const glm::vec2 foot = *both.scene.camera.project(wind_arrow(both.tools, preset.W).base, size);
+  both.drag(tip(both), foot);
+  CHECK(both.session.preset().W == glm::dvec3(0));
+  CHECK(both.session.preset().u == preset.u);
+  CHECK(wind_of_arrow(both.tools) == &Preset::u);
 }
 
 TEST_CASE("an arrow that would leave its picture is cut short at its edge, any other is left as it is") {

@@ -182,8 +182,7 @@ int pinned_count(const Ui& ui) {
 /// The wind and its arrow; `tip` in pixels of the window, null where none is shown.
 Json wind(const Ui& ui) {
   Json json = {{"W", vector(ui.session.preset().W)}, {"now", vector(ui.session.simulation->wind())}, {"tip", nullptr}};
-  if (wind_arrow_shown(ui.tools))
-    json["tip"] = on_screen(ui, wind_arrow(ui.tools, ui.session.requested_preset().W).tip);
+  if (wind_arrow_shown(ui.tools)) json["tip"] = on_screen(ui, wind_arrow(ui.tools, requested_wind(ui.tools)).tip);
   return json;
 }
 

@@ -196,7 +196,7 @@ TEST_CASE("3: a preset is wrong or missing") {
                {{"presets", "show", "demin"}, 3, "denim"},
                {{"presets", "check", "demin"}, 3, "denim"},
                {{"runn"}, 3, "Did you mean 'run'?"},
-               {{"run", "nothing"}, 3, "file. The shipped presets are bounce, bow, curtain, "}},
+               {{"run", "nothing"}, 3, "file. The shipped presets are bias, bounce, bow, "}},
               folder.path());
   test::write_file(folder / "right.json", preset_to_json({}));
   check_calls({{{"presets", "check", "right.json"}, 0, "right.json"},

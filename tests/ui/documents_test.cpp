@@ -1,10 +1,13 @@
 // Presets are saved and opened by dialogs; what is not saved is never lost without a question.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "app/base/files.h"
 #include "app/base/glfw_keys.h"
 #include "app/session/requests.h"
 #include "core/io/preset_io.h"
+#include "core/model/fabric.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::documents_test {
@@ -138,6 +141,27 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   REQUIRE(window.session.labs.run.has_value());
   CHECK(window.session.labs.run->lab.label == "01_hooke");
   CHECK(window.settings.recent.size() == 1);  // a lab's cloth is no work of the user's
+}
+
+TEST_CASE("the start page shows the fabrics beside each other, after the other scenes") {
+  test::NullUi window;
+  window.ui.command("start_page");
+  window.frames(2);
+  std::vector<std::string> sections, fabrics_shown;
+  for (const GalleryCard& card : window.ui.gallery.cards) {
+    if (sections.empty() || sections.back() != card.section) sections.push_back(card.section);
+    if (sections.back() == "Fabrics") fabrics_shown.push_back(card.entry.keys);
+  }
+  CHECK(sections == std::vector<std::string>{"Scenes", "Fabrics", "Labs"});
+  std::vector<std::string> wanted;
+  for (const Fabric& fabric : fabrics()) wanted.push_back("fabric_" + std::string(fabric.key));
+  std::sort(wanted.begin(), wanted.end()), std::sort(fabrics_shown.begin(), fabrics_shown.end());
+  CHECK(fabrics_shown == wanted);
+  window.click("dialog.find");
+  window.type("knit");
+  window.frames(2);
+  CHECK(window.drew("Fabrics"));
+  CHECK(window.sees("dialog.entry.fabric_knit"));
 }
 
 TEST_CASE("the scene waits behind the start page, and starts where it stands once that is closed or something chosen") {

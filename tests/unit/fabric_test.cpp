@@ -8,7 +8,9 @@
 
 #include "core/forces/force.h"
 #include "core/io/preset_io.h"
+#include "core/model/words.h"
 #include "core/simulation.h"
+#include "tests/support/places.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::fabric_test {
@@ -39,6 +41,30 @@ TEST_CASE("a cloth of a fabric is a valid preset of its mass and stiffness, and 
     }
     const double C = 2 * energy / (0.01 * 0.01 * cloth.L * cloth.L);
     CHECK(C / fabric.weft == doctest::Approx(1).epsilon(0.01));
+  }
+}
+
+TEST_CASE(
+    "the shipped scene of each fabric is a cloth of it, says what it is, and differs from the others in that alone") {
+  const auto scene = [](const Fabric& fabric) {
+    return load_preset(std::string(test::source_dir) + "/app/presets/fabric_" + std::string(fabric.key) + ".json");
+  };
+  const Preset first = scene(fabrics().front());
+  for (const Fabric& fabric : fabrics()) {
+    CAPTURE(fabric.key);
+    const Preset preset = scene(fabric);
+    CHECK(is_fabric(preset, fabric));
+    CHECK(preset.m / with_fabric(preset, fabric).m == doctest::Approx(1).epsilon(1e-12));
+    CHECK(preset.name == fabric.name);
+    const double drape = drape_length(preset.B, fabric.mass, preset.g);
+    CHECK(preset.description.find("drapes over lengths of " + quantity(1e3 * drape, "mm", 2)) != std::string::npos);
+    CHECK(preset.description.starts_with(fabric.measured ? "Measured" : "Estimated"));
+    Preset alike = with_fabric(first, fabric);
+    alike.name = preset.name, alike.description = preset.description, alike.texture = preset.texture;
+    alike.m = preset.m, alike.k_d = preset.k_d;
+    alike.integrator = preset.integrator, alike.dt = preset.dt, alike.precision = preset.precision;
+    alike.iterations = preset.iterations;
+    CHECK(alike == preset);
   }
 }
 

@@ -113,8 +113,10 @@ void tool_rows(Ui& ui) {
             ui.keys_of("toggle_slow_hand"));
     next_check(ui, "slow motion", "wind arrow", width);
     if (check(ui, "wind arrow", wind_arrow_shown(ui.tools))) ui.command("toggle_wind_arrow");
-    tooltip(ui, gui::item_id(), "Shows the wind W as an arrow in the scene: drag its tip.",
-            ui.keys_of("toggle_wind_arrow"));
+    tooltip(
+        ui, gui::item_id(),
+        "Shows the wind W as an arrow in the scene, or where there is air but no W the air's velocity u: drag its tip.",
+        ui.keys_of("toggle_wind_arrow"));
   });
 }
 

@@ -36,6 +36,18 @@ std::string count_of(const Preset& preset) {
   return std::to_string(preset.rows) + " × " + std::to_string(preset.columns);
 }
 
+/// What a finer cloth does not keep, as a further sentence: where single particles carry it, its sag has no limit.
+std::string hangs_by_points(const Preset& preset) {
+  using enum Pins::Mode;
+  const Pins& pins = preset.pins;
+  const bool points =
+      pins.mode == top_corners || pins.mode == four_corners || (pins.mode == list && !pins.list.empty());
+  if (!points || preset.g == 0 || preset.columns == 1) return "";
+  return " This cloth hangs by points, so its sag has no limit: the finer it is, the more it sags, by 30 % from 9 to "
+         "65 "
+         "rows.";
+}
+
 /// A button with what it leads to beneath it.
 bool answer(Ui& ui, const char* label, const std::string& result, bool strong) {
   const bool clicked = text_button(ui, label, strong);
@@ -60,7 +72,8 @@ void question_part(Ui& ui, const ResolutionQuestion& question) {
     const std::string result = count_of(*same) + ", " + size_of(now) + " as now; L = " + quantity(same->L, "m", 3) +
                                ", dt = " + quantity(same->dt, "s", 3);
     if (answer(ui, grows ? "Same size, finer" : "Same size, coarser", result, true)) answer_later(ui, true);
-    tooltip(ui, gui::item_id(), "This cloth with other springs: mass and stretch behavior stay", "Enter");
+    tooltip(ui, gui::item_id(), "This cloth with other springs: mass and stretch behavior stay." + hangs_by_points(now),
+            "Enter");
   }
   const std::string result = count_of(more) + ", " + size_of(more) + "; L, m and dt stay";
   if (answer(ui, grows ? "More cloth" : "Less cloth", result, !question.same_size)) answer_later(ui, false);
@@ -97,10 +110,11 @@ void answer_resolution(Ui& ui, bool same_size) {
 }
 
 void resolution_row(Ui& ui) {
-  static constexpr const char* tip =
+  const std::string tip =
       "Makes the lattice finer or coarser and keeps the size, mass and stretch behavior: R−1 and C−1 times q, L/q, "
       "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding decreases as the cloth gets finer, since k_b stays. "
-      "Tears are repaired.";
+      "Tears are repaired." +
+      hangs_by_points(ui.session.requested_preset());
   const auto scale = [&](double q) { ui.session.propose(with_resolution(ui.session.requested_preset(), q)); };
   labeled_row(ui, "divide", [&](float) {
     const Preset& preset = ui.session.requested_preset();

@@ -74,7 +74,7 @@ std::vector<CommandRow> cloth_rows() {
        "W",
        {{GLFW_KEY_W, 0}},
        "shows the wind as an arrow to drag",
-       "gust blow",
+       "gust blow air velocity",
        toggle_wind_arrow,
        nullptr,
        {},

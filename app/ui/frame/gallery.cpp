@@ -15,7 +15,8 @@ namespace tyglab {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char *recent = "Recent work", *scenes = "Scenes", *yours = "Your presets", *labs = "Labs";
+constexpr const char *recent = "Recent work", *scenes = "Scenes", *fabric_scenes = "Fabrics", *yours = "Your presets",
+                     *labs = "Labs";
 constexpr float least_card = 190, narrow_card = 160, between_at_1 = 12;  // sizes at scale 1
 constexpr float low_window_at_1 = 480, lowest_list_at_1 = 60, highest_list_at_1 = 560;
 
@@ -41,6 +42,11 @@ void add_folder(std::vector<GalleryCard>& cards, const char* section, const fs::
   // The default scene is what one begins with.
   std::stable_partition(found.begin(), found.end(),
                         [](const GalleryCard& card) { return card.entry.keys == "hanging"; });
+  // One scene with each fabric: to be compared, so they stand together.
+  for (GalleryCard& card : found)
+    if (shipped && card.entry.keys.starts_with("fabric_")) card.section = fabric_scenes;
+  std::stable_partition(found.begin(), found.end(),
+                        [](const GalleryCard& card) { return card.section != fabric_scenes; });
   std::move(found.begin(), found.end(), std::back_inserter(cards));
 }
 
@@ -131,7 +137,8 @@ std::vector<CardRow> card_rows(const Ui& ui, const std::vector<int>& found, int 
 bool one_card(Ui& ui, const GalleryCard& card, const CardShape& shape, float height, bool chosen) {
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + shape.width, lo.y + height};
   const bool clicked = gui::press_area("card", {shape.width, height});
-  report_control(ui, "entry." + (card.section == scenes ? card.entry.keys : card.entry.title));
+  const bool by_file = card.section == scenes || card.section == fabric_scenes;
+  report_control(ui, "entry." + (by_file ? card.entry.keys : card.entry.title));
   if (ImGui::IsItemHovered() && !card_text(ui, card, shape).whole) tooltip(ui, gui::item_id(), card.entry.purpose);
   if (ImGui::IsRectVisible(lo, hi)) draw_gallery_card(ui, card, lo, shape, height, chosen || ImGui::IsItemHovered());
   return clicked;

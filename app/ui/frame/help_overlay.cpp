@@ -24,7 +24,7 @@ constexpr Entry mouse_entries[] = {
     {"Right click", "picks a particle: its forces are shown"},
     {"Right double-click", "pins or unpins a particle"},
     {"Left drag", "cuts the springs above, or what it crosses (C)"},
-    {"Drag the wind arrow's tip", "changes W; Shift: in depth, Ctrl: along an axis"},
+    {"Drag the wind arrow's tip", "changes W, or u in air; Shift: in depth, Ctrl: along an axis"},
     {"Left drag on a sphere", "moves the sphere"},
     {"Middle or Ctrl+left drag", "orbits; with Shift pans"},
     {"Wheel, two fingers", "zooms; with Shift pans"},

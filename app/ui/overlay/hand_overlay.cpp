@@ -9,6 +9,7 @@
 #include "app/tools/tools.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "core/forces/contact.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -30,17 +31,23 @@ std::optional<Box> place_of_label(const Ui& ui, glm::vec2 foot, glm::vec2 size) 
   return ui.placing.first_free(places);
 }
 
-/// "W  4.02 mN", and in gusts what blows now.
-void wind_label(Ui& ui, ImDrawList& draw, glm::vec2 foot, const glm::dvec3& W) {
+/// The present wind, with gusts.
+glm::dvec3 blowing(const Ui& ui) {
+  const Simulation& simulation = *ui.session.simulation;
+  return in_gusts(simulation.preset(), simulation.time()).*wind_of_arrow(ui.tools);
+}
+
+/// "W  4.02 mN" or "u  3.5 m/s", and in gusts what blows now.
+void wind_label(Ui& ui, ImDrawList& draw, glm::vec2 foot, const glm::dvec3& wind) {
   const Tokens& c = ui.theme.colors;
   const ImFont &mono = *ui.fonts.mono, &small = *ui.fonts.small;
   const float pad = ui.theme.px(8), gap = ui.theme.px(8), line = ui.theme.px(20);
-  const ScaledUnit unit = scaled_unit(glm::length(W), "N");
-  const std::string strength = short_number(glm::length(W) / unit.size, 3) + " " + unit.name;
+  const char* const name = wind_of_arrow(ui.tools) == &Preset::W ? "W" : "u";
+  const ScaledUnit unit = scaled_unit(glm::length(wind), *name == 'W' ? "N" : "m/s");
+  const std::string strength = short_number(glm::length(wind) / unit.size, 3) + " " + unit.name;
   const bool gusty = gusts(ui.session.preset());
-  const std::string now =
-      "now " + steady_number(glm::length(ui.session.simulation->wind()) / unit.size) + " " + unit.name;
-  const float symbol = symbol_width(ui.fonts, "W");
+  const std::string now = "now " + steady_number(glm::length(blowing(ui)) / unit.size) + " " + unit.name;
+  const float symbol = symbol_width(ui.fonts, name);
   const float width = std::max(symbol + gap + text_width(mono, strength), gusty ? text_width(small, now) : 0.f);
   const glm::vec2 size = glm::ceil(glm::vec2(width + 2 * pad, line * (gusty ? 2.f : 1.f) + pad / 2));
   const auto box = place_of_label(ui, foot, size);
@@ -48,7 +55,7 @@ void wind_label(Ui& ui, ImDrawList& draw, glm::vec2 foot, const glm::dvec3& W) {
   ui.placing.take("wind", *box);
   draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(c.ground, 0.85f), ui.theme.px(6));
   const float x = box->lo.x + pad, baseline = baseline_at(ui.fonts, box->lo.y + line / 2 + pad / 4);
-  draw_symbol(draw, ui.fonts, {x, baseline}, "W", c.text);
+  draw_symbol(draw, ui.fonts, {x, baseline}, name, c.text);
   draw_on_baseline(draw, mono, {x + symbol + gap, baseline}, c.text, strength);
   if (gusty) draw_on_baseline(draw, small, {x, baseline + line}, c.quiet, now);
 }
@@ -65,20 +72,20 @@ void stroke_part(Ui& ui, ImDrawList& draw, const Tool::StrokePoint& a, const Too
 void wind_overlay(Ui& ui, ImDrawList& draw) {
   if (!wind_arrow_shown(ui.tools)) return;
   const Tokens& c = ui.theme.colors;
-  const glm::dvec3 W = ui.session.requested_preset().W;
-  const WindArrow arrow = wind_arrow(ui.tools, W);
+  const glm::dvec3 wind = requested_wind(ui.tools);
+  const WindArrow arrow = wind_arrow(ui.tools, wind);
   const auto base = on_screen(ui, 0, arrow.base), tip = on_screen(ui, 0, arrow.tip);
   if (!base || !tip) return;
   const bool taken = ui.tools.tool.kind == Tool::Kind::wind, near = wind_under_pointer(ui.tools);
   if (gusts(ui.session.preset())) {
-    const auto now = on_screen(ui, 0, wind_arrow(ui.tools, ui.session.simulation->wind()).tip);
+    const auto now = on_screen(ui, 0, wind_arrow(ui.tools, blowing(ui)).tip);
     if (now) draw_arrow(ui, draw, *base, *now, {faded(c.sky, 0.5f), LineStyle::solid, 2});
   }
-  const bool shortened = glm::length(arrow.tip - arrow.base) < 0.999 * glm::length(W) * arrow.metres_per_newton;
+  const bool shortened = glm::length(arrow.tip - arrow.base) < 0.999 * glm::length(wind) * arrow.metres_per_unit;
   draw_arrow(ui, draw, *base, *tip, {c.sky, LineStyle::solid, 2}, shortened);
   draw.AddCircleFilled(*base, ui.theme.px(3), c.sky, 16);
   ring(ui, draw, *tip, 8, taken || near ? c.accent : faded(c.sky, 0.7f), taken || near ? 2.5f : 1.5f);
-  wind_label(ui, draw, {base->x, base->y}, W);
+  wind_label(ui, draw, {base->x, base->y}, wind);
 }
 
 void knife_stroke(Ui& ui, ImDrawList& draw) {

@@ -78,7 +78,7 @@ std::vector<Box> drawn_parts(Ui& ui) {
     cloth.preset().kind == Kind::one_weight ? add_weight(ui, cloth, tile, parts) : add_patches(ui, cloth, tile, parts);
   }
   if (wind_arrow_shown(ui.tools)) {
-    const WindArrow arrow = wind_arrow(ui.tools, ui.session.requested_preset().W);
+    const WindArrow arrow = wind_arrow(ui.tools, requested_wind(ui.tools));
     add_box(ui, 0, {arrow.base, arrow.tip}, parts);
   }
   return parts;

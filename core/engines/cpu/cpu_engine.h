@@ -268,7 +268,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   bool late_ = false;       ///< the present stage ends with the passes that are made
   bool repeating_ = false;  ///< known steps, which are not stopped
   const Stop never_{};
-  glm::dvec3 hand_force_{0};  ///< on the held particle, of a method that projects
+  glm::dvec3 hand_force_{0};  ///< on the held particle: of a method that projects, or the air of one that solves
 };
 
 std::unique_ptr<Engine> make_cpu_engine(const Preset& preset, const Lattice& lattice, int threads);

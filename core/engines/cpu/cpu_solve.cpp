@@ -26,13 +26,17 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
 }
 
 /// The air of an implicit stage, as accelerations: at the positions and velocities with which the stage begins. Nothing
-/// without air.
+/// without air. The held particle, which it does not accelerate, feels it too: hand_force_.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_air(const ResolvedSweep& sweep, const Tears& tears) {
+  hand_force_ = {};
   if ((cloth_.features & air) == 0) return;
   ResolvedSweep look;
   look.position = sweep.position, look.velocity = sweep.velocity, look.air = ResolvedSweep::Air::alone;
-  accelerations(look, tears, air_, false);
+  accelerations(look, tears, air_, true);
+  if (!has(part::hand) || cloth_.held.particle < 0) return;
+  for (const auto& band : bands())
+    if (band->has_hand()) hand_force_ = band->hand_force();
 }
 
 /// Of a stage whose air has begun: a(x, v) with that.

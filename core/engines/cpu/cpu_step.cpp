@@ -85,7 +85,8 @@ StepMeasures CpuEngine<R, Present>::measures(int step) {
     result.left_inside += band->left_inside();
     if (hand && !projected && band->has_hand()) result.hand_force = band->hand_force();
   }
-  if (hand && projected) result.hand_force = hand_force_;
+  if (hand && (projected || is_implicit(*scheme_)))
+    result.hand_force = result.hand_force.value_or(glm::dvec3(0)) + hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
   if (step_limit() > 0 && can_end_early(*scheme_)) result.limited_seconds = step_seconds();
   const Balance balance = solves_damping(*scheme_) ? damping_balance() : solver_.solved();
