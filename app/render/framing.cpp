@@ -60,7 +60,7 @@ float lowest_hanging(const Preset& p, const Bounds& start) {
       break;
   }
   if (!(p.g > 0)) return start.lo.y;
-  const float size = std::max(length, width), near = 1.4 * size;
+  const float size = std::max(length, width), near = 1.4f * size;
   // What nothing holds falls as far as a plane, where that is near enough to be seen with the cloth.
   const auto plane = plane_below(p, start.lo.y);
   return plane && start.lo.y - *plane < near ? float(*plane) : start.lo.y - 0.6f * size;

@@ -30,10 +30,10 @@ double thickness(const Body& body) {
 
 /// The largest depth on the line between two points, m. Bodies are convex: along the line it has one maximum.
 double deepest_between(const PlacedBody& body, const glm::dvec3& from, const glm::dvec3& to) {
-  constexpr int rounds = 24;
+  constexpr int sections = 24;
   double low = 0, high = 1;
   const auto at = [&](double part) { return depth(body, from + part * (to - from)); };
-  for (int n = 0; n < rounds; ++n) {
+  for (int n = 0; n < sections; ++n) {
     const double third = (high - low) / 3;
     if (at(low + third) < at(high - third))
       low += third;
