@@ -449,17 +449,17 @@ INLINE int meet_next(global const Body* bodies, int count, ContactRule rule, int
     f->v -= fmin((BODY_REAL)(0), dot(f->v - surface_velocity(body, f->x, rule.dt), n)) * n;
     return hit;
   }
-  Flight ridden = *f;
-  if (body->moves) mount(body, now, &ridden);
-  const BODY_REAL3 u = ridden.path.u;
-  const BODY_REAL outward = dot(u, n), press = -dot(ridden.path.a, n) - turn_at(body, at, n, u, now);
+  const Flight seen = *f;
+  if (body->moves) mount(body, now, f);
+  const BODY_REAL3 u = f->path.u;
+  const BODY_REAL outward = dot(u, n), press = -dot(f->path.a, n) - turn_at(body, at, n, u, now);
   if (rests(body, outward, press, rule.dt)) {
-    slide(body, n, press, now, &ridden);
-    if (body->moves) dismount(body, now, &ridden);
-    *f = ridden;
-  } else if (outward < 0) {
-    bounce(body, n, u, f);
+    slide(body, n, press, now, f);
+    if (body->moves) dismount(body, now, f);
+    return hit;
   }
+  if (body->moves) *f = seen;
+  if (outward < 0) bounce(body, n, u, f);
   return hit;
 }
 

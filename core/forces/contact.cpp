@@ -17,7 +17,7 @@ using glm::cross, glm::dot, std::cos, std::fabs, std::fmax, std::fmin, std::sin,
 
 #define BODIES
 #define global
-#define INLINE inline
+#define INLINE [[gnu::always_inline]] inline
 #define BODY_REAL double
 #define BODY_REAL3 glm::dvec3
 #define VECTOR(x, y, z) glm::dvec3(x, y, z)
