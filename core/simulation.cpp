@@ -423,28 +423,23 @@ AdvanceResult Simulation::advance(int steps) {
   return total;
 }
 
-AdvanceResult Simulation::advance_engine(int steps) {
-  if (watch_) watch_->before_step(preset_, tears_);
-  engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
-  const AdvanceResult part = engine_->advance(steps, tears_);
-  if (watch_ && part.steps > 0 && !part.diverged) watch_step(acting());
-  return part;
-}
-
 /// As far as the engine goes by itself: what follows from the steps is done.
 AdvanceResult Simulation::advance_part(int steps) {
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
   if (pushed_until_ && *pushed_until_ <= steps_) end_push();
   if (pushed_until_) steps = int(std::min<std::int64_t>(steps, *pushed_until_ - steps_));
   if (gusts(preset_)) steps = std::min(steps, update_gust());
-  AdvanceResult part =
-      preset_.contact == "global" && !preset_.bodies.empty() ? step_to_impacts() : advance_engine(steps);
+  const bool splits = preset_.contact == "global" && !preset_.bodies.empty();
+  if (watch_ && !splits) watch_->before_step(preset_, tears_);
+  engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
+  AdvanceResult part = splits ? step_to_impacts() : engine_->advance(steps, tears_);
   steps_ += part.steps;
   if (part.steps > 0) untouched_ = false, ++revision_;
   left_inside_ = part.left_inside;
   if (part.torn > 0) ++tear_revision_;
   if (held_.particle >= 0) hand_force_ = part.hand_force;
   if (part.diverged) diverge(part);
+  if (watch_ && part.steps > 0 && !splits) watch_step(acting());
   part.diverged = divergence_.has_value();
   if (part.released) release(), watch_edit(Ledger::Source::hand);
   if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {

@@ -189,7 +189,6 @@ class Simulation {
   void fix(std::span<const int> pinned, const Held& held);
   void diverge(const AdvanceResult& part);
   AdvanceResult advance_part(int steps);
-  AdvanceResult advance_engine(int steps);
   AdvanceResult step_to_impacts();
   double time_of_impact(const State& before, const Tears& tears, double t, int particle, int body, double first,
                         State& after);
