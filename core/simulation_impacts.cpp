@@ -54,6 +54,7 @@ AdvanceResult Simulation::step_to_impacts() {
   const State start = before;
   const Tears tears_at_start = tears_;
   double left = preset_.dt, t = begin;
+  int torn = 0;
   for (int impacts = 0; left > 0; ++impacts) {
     // As if there were no bodies.
     const Tears tears = tears_;
@@ -101,11 +102,13 @@ AdvanceResult Simulation::step_to_impacts() {
       }
     }
     if (watch_) watch_step(part);
+    torn += all.torn;
     t += part.dt;
     left = met && part.dt < left ? begin + preset_.dt - t : 0;
     if (left > 0) engine_->read(before, tears_);
   }
   engine_->set_preset(whole, tears_);
+  all.torn = all.steps == 1 ? torn : 0;
   if (all.steps == 1) return all;
   // It diverged or was stopped: nothing of the step counts.
   tears_ = tears_at_start;
