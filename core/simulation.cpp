@@ -8,6 +8,7 @@
 
 #include "core/cloth/state.h"
 #include "core/engines/still_engine.h"
+#include "core/forces/force.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
@@ -162,8 +163,8 @@ void Simulation::fix(std::span<const int> pinned, const Held& held) {
       held.particle != held_.particle || !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   if (!others && held.velocity == held_.velocity) return;
   engine_->prepare(pinned.size());
-  // Only damping depends on the velocity of the hand.
-  if (others || preset_.k_d > 0) engine_->synchronize(tears_);
+  // Only damping and air depend on the velocity of the hand.
+  if (others || force::damping.on(preset_) || force::air.on(preset_)) engine_->synchronize(tears_);
   engine_->set_fixed(pinned, held);
 }
 

@@ -221,7 +221,8 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
                                      [n](const Assignment& assignment) { return assignment.target == n; });
     // What others read while it is written stands twice: neighbors, bands that make their neighbors' rows too, and
     // who draws.
-    const bool seen = n == sweep.position || (n == sweep.velocity && preset_.k_d > 0);
+    const bool seen =
+        n == sweep.position || (n == sweep.velocity && (force::damping.on(preset_) || force::air.on(preset_)));
     const bool read = levels > 1 || (resolved.work == Work::forces && seen) || state_.lent(n);
     const cl_mem in = state_.vector(n), out = written && read ? state_.other(n) : in;
     at = set_arguments(kernel, at, in, out);
