@@ -21,7 +21,7 @@ struct Fabric {
 /// In the order of their stiffness.
 std::span<const Fabric> fabrics();
 
-/// (B/ρg)^⅓, m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B is,
+/// (B/ρg)^(1/3), m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B is,
 /// infinity without weight.
 double drape_length(double B, double mass, double g);
 

@@ -36,7 +36,8 @@ void randomise(T& object, const Row<T>& row, StressRandom& random) {
   if (const auto* number = std::get_if<double T::*>(&row.field)) object.** number = anywhere(row, random);
   if (const auto* whole = std::get_if<int T::*>(&row.field)) object.** whole = int(anywhere(row, random));
   if (const auto* vector = std::get_if<glm::dvec3 T::*>(&row.field))
-    for (int c = 0; c < 3; ++c) (object.**vector)[c] = signed_decades(row.max, random);
+    for (int c = 0; c < 3; ++c)
+      (object.**vector)[c] = row.min > 0 ? anywhere(row, random) : signed_decades(row.max, random);
 }
 
 bool is_size(const PresetRow& row) {

@@ -220,7 +220,7 @@ void fabric_row(Ui& ui) {
         ui.theme.colors.text, fitted(*ui.fonts.small, words, width));
     ImGui::Dummy({width, ui.theme.px(30)});
     tooltip(ui, gui::item_id(),
-            "Mass per area m/L², bending rigidity, and the drape length (B/ρg)^⅓ over which the cloth bends by its own "
+            "Mass per area m/L², bending rigidity, and the drape length (B/ρg)^(1/3) over which the cloth bends by its own "
             "weight. A spacing L well below it shows folds as they are; a finer cloth keeps all three.");
   });
 }
