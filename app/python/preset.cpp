@@ -35,6 +35,9 @@ py::object constant(const Preset& preset, const std::string& key) {
   if (all.contains(key)) return all[key.c_str()];
   for (const auto& [name, block] : all)
     if (py::isinstance<py::dict>(block) && block.contains(key)) return block[key.c_str()];
+  // One that is left out is as that one.
+  if (const PresetRow* row = find_row(key); row != nullptr && !row->otherwise.empty())
+    return py::str(std::string(row->otherwise));
   throw py::key_error(key);
 }
 

@@ -102,8 +102,14 @@ double reach_of(const PlacedBody& body, double dt, double epsilon) {
 }  // namespace
 
 std::vector<PlacedBody> placed_bodies(std::span<const Body> bodies, double t, double dt, double epsilon) {
-  assert(dt > 0);
   std::vector<PlacedBody> all;
+  place_bodies(bodies, t, dt, epsilon, all);
+  return all;
+}
+
+void place_bodies(std::span<const Body> bodies, double t, double dt, double epsilon, std::vector<PlacedBody>& all) {
+  assert(dt > 0);
+  all.clear();
   all.reserve(bodies.size());
   for (const Body& body : bodies) {
     all.push_back(placed_at(body, t));
@@ -114,7 +120,6 @@ std::vector<PlacedBody> placed_bodies(std::span<const Body> bodies, double t, do
     all.back().spins = !is_round(body.shape, all.back(), body.spin);
     all.back().reach = reach_of(all.back(), dt, epsilon);
   }
-  return all;
 }
 
 PlacedBody placed(const Body& body) {

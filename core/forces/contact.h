@@ -50,6 +50,8 @@ BodyAt<B> body_as(const PlacedBody& from) {
 }
 /// The bodies over a step of dt that begins at time t, s. `epsilon`: of the precision of positions.
 std::vector<PlacedBody> placed_bodies(std::span<const Body> bodies, double t, double dt, double epsilon);
+/// The same into a list, which takes no memory where it has held as many.
+void place_bodies(std::span<const Body> bodies, double t, double dt, double epsilon, std::vector<PlacedBody>& all);
 /// A body that rests.
 PlacedBody placed(const Body& body);
 /// The body as it is at time t, s, at rest.

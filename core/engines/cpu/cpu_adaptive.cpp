@@ -172,7 +172,7 @@ void CpuEngine<R, Present>::judge_inner_step() {
   control_.count_evaluations(int(sweeps_.size()) - (knows_first_a_ ? 1 : 0));
   knows_first_a_ = true;
   accepted_ = control_.judge(tried);
-  if (accepted_ && cloth_.bodies_move) cloth_.bodies = bodies_in(1);
+  if (accepted_ && cloth_.bodies_move) place_next_bodies();
   if (!accepted_) take_next_dt();
 }
 

@@ -164,14 +164,22 @@ void CpuEngine<R, Present>::exchange(const Preset& preset) {
   }
 }
 
-/// In steps that are made together, or in the next inner step.
+/// In the next step or inner step, without taking memory.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::place_next_bodies() {
+  const double dt = cloth_.preset.dt, made = chooses_steps(*scheme_) && left_of_dt_ > 0 ? dt - left_of_dt_ : 0;
+  assert(!cloth_.bodies.empty());
+  place_bodies(cloth_.preset.bodies, time_after(0, dt) + made, cloth_.dt, std::numeric_limits<R>::epsilon(),
+               cloth_.bodies.front());
+}
+
+/// In steps that are made together.
 template <class R, unsigned Present>
 std::vector<std::vector<PlacedBody>> CpuEngine<R, Present>::bodies_in(int steps) const {
-  const double dt = cloth_.preset.dt, made = chooses_steps(*scheme_) && left_of_dt_ > 0 ? dt - left_of_dt_ : 0;
+  const double dt = cloth_.preset.dt;
   std::vector<std::vector<PlacedBody>> all;
   for (int n = 0; n < std::max(steps, 1); ++n)
-    all.push_back(
-        placed_bodies(cloth_.preset.bodies, time_after(n, dt) + made, cloth_.dt, std::numeric_limits<R>::epsilon()));
+    all.push_back(placed_bodies(cloth_.preset.bodies, time_after(n, dt), cloth_.dt, std::numeric_limits<R>::epsilon()));
   return all;
 }
 
@@ -234,7 +242,7 @@ bool CpuEngine<R, Present>::keeps_old_rows() const {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   const int columns = cloth_.lattice.columns;
-  cloth_.bodies = bodies_in(1);
+  place_next_bodies();
   rows_.resize(6 * std::size_t(team_->capacity()) * columns);
   team_->run([&](int number) {
     const auto part = [&](int n) { return rows_.data() + (6 * std::ptrdiff_t(number) + n) * columns; };

@@ -167,6 +167,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
   std::vector<std::vector<PlacedBody>> bodies_in(int steps) const;
+  void place_next_bodies();
   /// The same in place, for inner steps, where it happens often.
   void change_dt(double dt);
   void scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const;

@@ -68,7 +68,7 @@ bool CpuEngine<R, Present>::find_runaway(const MotionLimit& limit, Fault& fault)
 
 template <class R, unsigned Present>
 Motion CpuEngine<R, Present>::motion(const Tears& tears) {
-  cloth_.bodies = bodies_in(1);
+  place_next_bodies();
   return motion_of(cloth_.preset, cloth_.lattice, tears, cloth_.bodies.front(), view(), 1 / cloth_.velocity_scale());
 }
 
