@@ -21,8 +21,8 @@ struct Fabric {
 /// In the order of their stiffness.
 std::span<const Fabric> fabrics();
 
-/// (B/ρg)^(1/3), m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B is,
-/// infinity without weight.
+/// (B/ρg)^(1/3), m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B
+/// is, infinity without weight.
 double drape_length(double B, double mass, double g);
 
 /// The preset as a cloth of that fabric: m, B, k_warp, k_weft and k_shear by its spacing L, without k_b. k_s, k_d and

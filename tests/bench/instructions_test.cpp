@@ -177,7 +177,7 @@ TEST_CASE("throughput names what each scene has and what was skipped, in columns
     if (run["variant"] != "wind") continue;
     windy = true;
     CHECK(run["features"] == nlohmann::json{"bending", "damping", "wind", "pins"});
-    CHECK(run["skipped"] == nlohmann::json{"rigidity", "bodies", "tearing", "hand"});
+    CHECK(run["skipped"] == nlohmann::json{"rigidity", "air", "bodies", "tearing", "hand"});
   }
   CHECK(windy);
   check_columns(outcome.err, all["runs"].size());

@@ -219,9 +219,10 @@ void fabric_row(Ui& ui) {
         {ImGui::GetCursorScreenPos().x, baseline_at(ui.fonts, ImGui::GetCursorScreenPos().y + ui.theme.px(15))},
         ui.theme.colors.text, fitted(*ui.fonts.small, words, width));
     ImGui::Dummy({width, ui.theme.px(30)});
-    tooltip(ui, gui::item_id(),
-            "Mass per area m/L², bending rigidity, and the drape length (B/ρg)^(1/3) over which the cloth bends by its own "
-            "weight. A spacing L well below it shows folds as they are; a finer cloth keeps all three.");
+    tooltip(
+        ui, gui::item_id(),
+        "Mass per area m/L², bending rigidity, and the drape length (B/ρg)^(1/3) over which the cloth bends by its own "
+        "weight. A spacing L well below it shows folds as they are; a finer cloth keeps all three.");
   });
 }
 
