@@ -123,12 +123,14 @@ void oscillator_limit(Trial& trial) {
     const char* method;
     double z;
   };
-  for (const auto& [name, z] : {Limit{"verlet", 2},
-                                {"velocity_verlet", 2},
-                                {"semi_implicit_euler", 2},
-                                {"damped_verlet", 2},
-                                {"rk4", std::sqrt(8.0)}})
-    trial.compare(z, bisect(0.9 * z, 1.1 * z, 1e6, [&](double at) { return stays_bounded(trial, name, at); }), name);
+  for (const Limit& of : {Limit{"verlet", 2},
+                          {"velocity_verlet", 2},
+                          {"semi_implicit_euler", 2},
+                          {"damped_verlet", 2},
+                          {"rk4", std::sqrt(8.0)}})
+    trial.compare(of.z,
+                  bisect(0.9 * of.z, 1.1 * of.z, 1e6, [&](double at) { return stays_bounded(trial, of.method, at); }),
+                  of.method);
 }
 
 void chain_limit(Trial& trial) {

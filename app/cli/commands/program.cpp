@@ -4,6 +4,7 @@
 #include "app/process/child.h"
 #include "app/process/process.h"
 #include "app/process/program_run.h"
+#include "core/io/terminal.h"
 #include "tyglab_version.h"
 
 namespace tyglab {

@@ -12,6 +12,7 @@
 #include "app/process/interrupt.h"
 #include "core/io/output_file.h"
 #include "core/io/system_files.h"
+#include "core/io/terminal.h"
 #include "core/output/obj.h"
 
 namespace tyglab {

@@ -31,6 +31,7 @@ struct VerifyOptions : BenchOptions {
 std::vector<const Case*> chosen_cases(const std::vector<std::string>& names) {
   std::vector<const Case*> all = verify::all_cases();
   std::vector<std::string_view> known;
+  known.reserve(all.size());
   for (const Case* one : all) known.push_back(one->name);
   for (const std::string& name : names)
     if (verify::find_case(name) == nullptr)
