@@ -276,8 +276,8 @@ void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 color, float
 }
 
 void ClothRenderer::Parts::draw_opaque(const ViewOptions& options) {
-  if (one_weight()) return draw_weight(options);
   draw_bodies(options);
+  if (one_weight()) return draw_weight(options);
   if (options.lit()) draw_triangles(options);
 }
 

@@ -78,7 +78,8 @@ std::optional<Bounds> body_bounds(const Body& body, const Bounds& cloth) {
                   ? float(std::abs(at.axes[k]) * at.size[0] + std::abs(at.axes[3 + k]) * at.size[1] +
                           std::abs(at.axes[6 + k]) * at.size[2])
                   : float(body.r + std::abs(at.axes[3 + k]) * body.length / 2);
-  Bounds box{glm::vec3(body.c) - half, glm::vec3(body.c) + half};
+  const glm::vec3 c(at.c[0], at.c[1], at.c[2]);
+  Bounds box{c - half, c + half};
   // Of a table as large as a hall the part at the cloth is looked at.
   if (body.shape == Shape::sphere || cloth.empty()) return box;
   const glm::vec3 around(glm::length(cloth.hi - cloth.lo));

@@ -54,6 +54,8 @@ std::string why_lower(const Convergence& study) {
     return printed("%d springs tore, each at the end of a step, which reduces the order to 1.", study.torn);
   if (!preset.bodies.empty() && preset.contact == "step")
     return "Contact with bodies begins in the middle of a step, which reduces the order to 1.";
+  if (!preset.bodies.empty() && preset.contact == "global")
+    return "Impacts split steps, but resting and sliding are computed with second order.";
   if (!preset.bodies.empty())
     return preset.k_d > 0
                ? "Damping passes an impact on to other particles from the next step on, which reduces the order to 1."

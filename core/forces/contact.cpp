@@ -127,7 +127,7 @@ PlacedBody placed(const Body& body) {
 }
 
 Body body_at(const Body& body, double t) {
-  if (!any_moves({&body, 1})) return body;
+  if (!any_moves({&body, 1}) && body.path.empty()) return body;
   Body at = body;
   at.c = center_at(body, t);
   at.velocity = at.spin = glm::dvec3(0), at.path.clear();
@@ -155,10 +155,6 @@ double depth(const PlacedBody& body, const glm::dvec3& x) {
 
 glm::dvec3 body_normal(const PlacedBody& body, const glm::dvec3& x) {
   return contact::normal_at(&body, x, 0);
-}
-
-glm::dvec3 body_velocity(const PlacedBody& body, const glm::dvec3& x) {
-  return contact::surface_velocity(&body, x, 0);
 }
 
 double contact_tolerance(const PlacedBody& body, const glm::dvec3& x, double epsilon) {

@@ -63,8 +63,6 @@ bool any_moves(std::span<const Body> bodies);
 double depth(const PlacedBody& body, const glm::dvec3& x);
 /// Unit normal of the surface of a placed body seen from x.
 glm::dvec3 body_normal(const PlacedBody& body, const glm::dvec3& x);
-/// Velocity of the point of the body that is at x, m/s.
-glm::dvec3 body_velocity(const PlacedBody& body, const glm::dvec3& x);
 
 /// 8 units in the last place of the largest of |x|, |c| and the body's size: a bound on rounding errors, m. `epsilon`
 /// is that of the state's precision.

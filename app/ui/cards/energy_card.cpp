@@ -159,7 +159,8 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& r, const Preset& preset)
         rows.push_back({EnergyKind::works, force->title, force->help, r.works.of[*force]});
   };
   add_works(Force::Group::internal);
-  rows.push_back({EnergyKind::works, "contact", "Removed by bodies: impacts and friction.", r.works.contact});
+  rows.push_back({EnergyKind::works, "contact",
+                  "Work of bodies: impacts and friction. Bodies at rest only remove energy.", r.works.contact});
   rows.push_back({EnergyKind::works, "tearing, cutting", "Energy of springs that tore or were cut.", r.works.tearing});
   add_works(Force::Group::external);
   rows.push_back({EnergyKind::works, "hand", "Work of the hand.", r.works.hand});

@@ -51,7 +51,7 @@ constexpr Feature features[] = {
     {"damping", "On if k_d > 0.", nullptr, Spent::step},
     {"wind", "On if W is not 0.", nullptr, Spent::step},
     {"air", "Drag and lift: on if ρ_air > 0.", nullptr, Spent::step},
-    {"bodies", "Collision with spheres and planes.", nullptr, Spent::step},
+    {"bodies", "Contact with bodies.", nullptr, Spent::step},
     {"tearing", "On if F_max > 0: springs are measured when one may be long enough to tear.", nullptr, Spent::step},
     {"pins", "Particles that never move.", nullptr, Spent::step},
     {"hand", "The particle that follows the pointer.", nullptr, Spent::step},

@@ -172,7 +172,7 @@ void add_body(Ui& ui, Body::Shape shape) {
 
 std::string no_more_bodies(const Ui& ui) {
   const Preset& preset = ui.session.requested_preset();
-  if (preset.kind != Kind::cloth) return "Bodies need a cloth; this is a mass on a spring.";
+  if (preset.kind != Kind::cloth) return "Bodies are added to a cloth; a mass on a spring has those of its preset.";
   return preset.bodies.size() < most_bodies ? "" : "A scene has at most " + std::to_string(most_bodies) + " bodies.";
 }
 
@@ -213,8 +213,8 @@ void contact_row(Ui& ui) {
       ui.session.propose(std::move(next));
     }
     tooltip(ui, gui::item_id(),
-            "When bodies act: at the time of contact within the step (order 2 without damping), or at the end of the "
-            "step as in the report (order 1).");
+            "When bodies act: at the time of contact within the step (order 2 without damping), at the end of the step "
+            "as in the report (order 1), or in steps that are split at every impact (the method's order, slow).");
   });
 }
 
@@ -230,8 +230,7 @@ void body_sections(Ui& ui) {
   if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();
   if (text_button(ui, "Add plane", false, room)) add_body(ui, Body::Shape::plane);
-  ImGui::SameLine();
-  if (begin_combo(ui, "##other bodies", "More", ui.theme.px(64))) {
+  if (begin_combo(ui, "##other bodies", "Add another body", ui.row_width)) {
     for (const Body::Shape shape : {Body::Shape::box, Body::Shape::capsule, Body::Shape::cylinder})
       if (ImGui::Selectable(std::string(title_of(shape)).c_str(), false, room ? 0 : ImGuiSelectableFlags_Disabled))
         add_body(ui, shape);

@@ -319,7 +319,7 @@ void constants_sections(Ui& ui) {
   for (const Heading& wanted : headings()) {
     if (empty(wanted, ui.session.requested_preset())) continue;
     const std::string_view name = wanted.name;
-    if (name == "Cloth" && cloth) body_sections(ui);
+    if (name == "Cloth" && (cloth || !ui.session.requested_preset().bodies.empty())) body_sections(ui);
     if (!section(ui, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
     if (name == "Integrator") integrator_row(ui);
     if (name == "Fabric") fabric_row(ui);
