@@ -20,7 +20,7 @@ class RunningIntegral {
  public:
   /// Continues after a break with the present value: the total is kept, and no polynomial reaches across the break.
   void restart(double value);
-  /// Adds the value a step of h (s) later. All steps since restart() have the same length.
+  /// Adds the value a step of h (s) later. No polynomial reaches across a change of h.
   void add(double value, double h);
   double total() const { return closed_ + open(); }
 

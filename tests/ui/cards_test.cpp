@@ -277,8 +277,11 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
   REQUIRE_FALSE(reached.empty());  // how many are measured to their end depends on what they cost here and now
   CHECK(std::is_sorted(reached.begin(), reached.end(), [](auto& a, auto& b) { return a.cost < b.cost; }));
   const Preset before = window.preset();
-  const Preset chosen = with_setting(before, reached.back());
-  window.click("plots.setting" + std::to_string(reached.size()));
+  window.frames(2);
+  std::size_t row = reached.size();  // the last one in sight: a slow machine measures more than the card has room for
+  while (row > 1 && !window.sees("plots.setting" + std::to_string(row))) --row;
+  const Preset chosen = with_setting(before, reached[row - 1]);
+  window.click("plots.setting" + std::to_string(row));
   window.until([&] { return window.preset() == chosen; }, "the setting to be used");
   CHECK(window.sees("plots.setting1"));  // the ranking stays: it is about the same motion
   window.until([&] { return window.drew("× before"); }, "costs to be those of the settings of before");

@@ -56,6 +56,9 @@ TEST_CASE("a running integral is exact for polynomials of degree 4 and stops at 
   CHECK(integral.total() == so_far);
   integral.add(-5, 2);
   CHECK(integral.total() == doctest::Approx(so_far - 10));
+  // A shorter step, as where an impact splits one: from the value before it on.
+  integral.add(-7, 0.5);
+  CHECK(integral.total() == doctest::Approx(so_far - 10 - 3));
 }
 
 TEST_CASE("a cloth's energy is that of its parts") {
