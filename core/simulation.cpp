@@ -93,6 +93,7 @@ Simulation::Simulation(const Simulation& from)
       tears_(from.tears_),
       pinned_mask_(from.pinned_mask_),
       pinned_(from.pinned_),
+      moving_pins_(from.moving_pins_),
       held_(from.held_),
       hand_steps_left_(from.hand_steps_left_),
       hand_force_(from.hand_force_),
@@ -114,6 +115,7 @@ void Simulation::build(const Preset& next) {
   pinned_ = particles_in(pinned_mask_);
   engine_ = made_engine(next, lattice_, {pinned_, {}}, start_rows(next), tears_, 0);
   preset_ = next, effective_preset_ = in_gusts(next, 0);
+  moving_pins_ = moving_pins(preset_, pinned_), driven_.clear();
   untouched_ = true;
   ++revision_, ++tear_revision_;
 }
@@ -157,15 +159,43 @@ void Simulation::hold(const Held& held) {
   held_ = held;
 }
 
-/// Tells the engine which particles are fixed from now on, unless they are fixed in the same way already.
-void Simulation::fix(std::span<const int> pinned, const Held& held) {
-  const bool others =
-      held.particle != held_.particle || !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
+/// Tells the engine which particles are fixed from now on, unless they are fixed in the same way already. `others`:
+/// they move in another way.
+void Simulation::fix(std::span<const int> pinned, const Held& held, bool others) {
+  others = others || held.particle != held_.particle ||
+           !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   if (!others && held.velocity == held_.velocity) return;
   engine_->prepare(pinned.size());
   // Only damping and air depend on the velocity of the hand.
   if (others || force::damping.on(preset_) || force::air.on(preset_)) engine_->synchronize(tears_);
   engine_->set_fixed(pinned, held);
+  driven_.clear();
+}
+
+/// Of these pinned particles those that move, from where they are now.
+MovingPins Simulation::moving_pins(const Preset& preset, std::span<const int> pinned) const {
+  if (preset.pins.motions.empty()) return {};
+  const auto x_of = [&](int p) { return position(p / lattice_.columns, p % lattice_.columns); };
+  return MovingPins(preset, pinned, x_of, time());
+}
+
+/// Gives pins that move the velocities of the coming step. Returns for how many steps they keep them.
+int Simulation::drive_pins() {
+  constexpr std::int64_t longest = 1 << 20;
+  const std::int64_t step = steps_ - steps_at_dt_;
+  const PinSpan span = moving_pins_.span_at(step, time_at_dt_, preset_.dt);
+  const bool begins = span.begin == step;
+  std::vector<DrivenPin> driven = moving_pins_.at(time_at_dt_ + double(span.begin) * preset_.dt,
+                                                  double(std::min(span.end - span.begin, longest)) * preset_.dt);
+  if (begins || driven != driven_) {
+    const bool jumps = begins && span.after_jump;
+    // Where velocities jump, so do the damping and the air of particles beside them.
+    if (jumps && (force::damping.on(preset_) || force::air.on(preset_))) engine_->synchronize(tears_);
+    engine_->drive_pins(driven, begins);
+    driven_ = std::move(driven);
+    if (jumps) watch_edit(Ledger::Source::hand);
+  }
+  return int(std::min(span.end - step, longest));
 }
 
 void Simulation::apply(const Edit& edit) {
@@ -195,13 +225,15 @@ void Simulation::change(const Preset& next) {
   Preset own = next, acts = blows ? in_gusts(next, time()) : merge(preset_, next, acting());
   std::vector<std::uint8_t> pinned_mask = pins ? pinned_particles(next) : std::vector<std::uint8_t>();
   std::vector<int> pinned = particles_in(pinned_mask);
+  MovingPins moving = pins ? moving_pins(next, pinned) : MovingPins();
   if (pins) engine_->prepare(pinned.size());
   if (moves) engine_->set_preset(acts, tears_);
   if (next.dt != preset_.dt) rebase_time();
   if (pins) {
     const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
-    fix(pinned, held);
+    fix(pinned, held, next.pins.motions != preset_.pins.motions);
     held_ = held, pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
+    moving_pins_ = std::move(moving);
   }
   if (blows || changed.touches(Effect::bodies)) pushed_until_.reset();
   preset_ = std::move(own), effective_preset_ = std::move(acts);
@@ -216,7 +248,7 @@ bool Simulation::restarts(EffectSet changed) const {
 void Simulation::take_engine(const Preset& next, const State& state) {
   engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   if (next.dt != preset_.dt) rebase_time();
-  preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
+  preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset(), driven_.clear();
 }
 
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
@@ -242,6 +274,7 @@ void Simulation::take_pins() {
   pinned_mask_ = pinned_particles(preset_);
   pinned_ = particles_in(pinned_mask_);
   hold(held_.particle >= 0 && pinned_mask_[held_.particle] ? Held{} : held_);
+  moving_pins_ = moving_pins(preset_, pinned_);
 }
 
 bool Simulation::rebuilds(const Edit& edit) const {
@@ -297,6 +330,7 @@ void Simulation::restart_untouched(const Preset& next) {
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
   held_ = held;
+  moving_pins_ = moving_pins(preset_, pinned_), driven_.clear();
 }
 
 void Simulation::grab(const edit::Grab& e) {
@@ -350,10 +384,12 @@ void Simulation::pin(const edit::Pin& e) {
   list.reserve(pinned.size());
   for (const int n : pinned) list.push_back({n / lattice_.columns, n % lattice_.columns});
   const bool lets_go = held_.particle == p;
+  MovingPins moving = moving_pins(preset_, pinned);
   fix(pinned, lets_go ? Held{} : held_);
   if (lets_go) held_ = {}, hand_force_ = {};
   pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
   preset_.pins.mode = Pins::Mode::list, preset_.pins.list = std::move(list);
+  moving_pins_ = std::move(moving);
 }
 
 void Simulation::move_body(const edit::MoveBody& e) {
@@ -367,7 +403,7 @@ void Simulation::move_body(const edit::MoveBody& e) {
     body.y = moves ? body.y + by.y : e.c.y;
   else
     body.c = moves ? body.c + by : e.c;
-  for (Body::Key& key : body.path) key.x += by;
+  for (PathKey& key : body.path) key.x += by;
   const bool on_its_way = e.steps > 0 && !moves;
   const Body acting_now = body_at(acting().bodies[std::size_t(e.index)], time());
   if (!on_its_way) return change(next);
@@ -430,6 +466,7 @@ AdvanceResult Simulation::advance_part(int steps) {
   if (pushed_until_ && *pushed_until_ <= steps_) end_push();
   if (pushed_until_) steps = int(std::min<std::int64_t>(steps, *pushed_until_ - steps_));
   if (gusts(preset_)) steps = std::min(steps, update_gust());
+  if (!moving_pins_.empty()) steps = std::min(steps, drive_pins());
   const bool splits = preset_.contact == "global" && !preset_.bodies.empty();
   if (watch_ && !splits) watch_->before_step(preset_, tears_);
   engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
@@ -499,7 +536,9 @@ Snapshot Simulation::snapshot() {
           steps_at_dt_,
           time_at_dt_,
           effective_preset_.W,
-          effective_preset_.u};
+          effective_preset_.u,
+          moving_pins_,
+          driven_};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -510,11 +549,24 @@ void Simulation::restore(const Snapshot& then) {
   Preset gusty = in_gusts(preset_, then.t);
   // What the method held then belongs to the wind of its last step, and learns of the next one's when that begins.
   if (repeats) gusty.W = then.W, gusty.u = then.u;
+  MovingPins moving;
+  std::vector<DrivenPin> driven;
+  if (repeats)
+    moving = then.moving_pins, driven = then.driven;
+  else if (!preset_.pins.motions.empty())
+    moving = MovingPins(
+        preset_, pinned_,
+        [&](int p) {
+          const auto& x = then.state.x;
+          return glm::dvec3(x.x[std::size_t(p)], x.y[std::size_t(p)], x.z[std::size_t(p)]);
+        },
+        then.t);
   engine_->prepare(pinned_.size());
   if (watch_) energy();
   if (gusts(preset_) || pushed_until_) engine_->set_preset(gusty, tears_);
   engine_->set_fixed(pinned_, {});
-  held_ = {};
+  engine_->drive_pins(driven, false);
+  held_ = {}, driven_ = std::move(driven), moving_pins_ = std::move(moving);
   tears_ = std::move(tears), effective_preset_ = std::move(gusty), pushed_until_.reset();
   hand_steps_left_ = 0;
   hand_force_ = {};
@@ -536,6 +588,7 @@ void Simulation::restore(const Snapshot& then) {
 void Simulation::load(const State& state) {
   engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
   engine_->load(state, tears_);
+  moving_pins_ = moving_pins(preset_, pinned_);
   untouched_ = false;
   ++revision_;
 }

@@ -14,6 +14,7 @@
 #include "core/forces/readout.h"
 #include "core/model/effect.h"
 #include "core/model/preset.h"
+#include "core/moving_pins.h"
 
 namespace tyglab {
 
@@ -49,6 +50,8 @@ struct Snapshot {
   double time_at_dt = 0;                     ///< and the time then, s
   glm::dvec3 W{0};                           ///< the wind of the last step, N: that of the next begins with a new gust
   glm::dvec3 u{0};                           ///< likewise, m/s
+  MovingPins moving_pins{};
+  std::vector<DrivenPin> driven{};  ///< as the engine had them
   std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0); }
   /// A lower bound of bytes() for a lattice.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
@@ -186,7 +189,9 @@ class Simulation {
   void end_push();
   void rebase_time();
   void hold(const Held& held);
-  void fix(std::span<const int> pinned, const Held& held);
+  void fix(std::span<const int> pinned, const Held& held, bool others = false);
+  MovingPins moving_pins(const Preset& preset, std::span<const int> pinned) const;
+  int drive_pins();
   void diverge(const AdvanceResult& part);
   AdvanceResult advance_part(int steps);
   AdvanceResult step_to_impacts();
@@ -208,6 +213,8 @@ class Simulation {
   std::unique_ptr<Engine> engine_;
   std::vector<std::uint8_t> pinned_mask_;
   std::vector<int> pinned_;
+  MovingPins moving_pins_;
+  std::vector<DrivenPin> driven_;  ///< those that the engine knows of
   Held held_;
   int hand_steps_left_ = 0;
   glm::dvec3 hand_force_{0};

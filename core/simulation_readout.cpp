@@ -80,7 +80,7 @@ ForceSummary Simulation::forces(Reduction reduction) {
 // The energy ledger of a simulation, kept only on request.
 
 EnergyReading Simulation::energy() {
-  return read_energy(acting(), tears_, read(), held_);
+  return read_energy(acting(), tears_, read(), held_, driven_);
 }
 
 void Simulation::enable_ledger(bool on) {
@@ -105,7 +105,7 @@ void Simulation::watch_edit(Ledger::Source source) {
 
 void Simulation::watch_step(const Preset& made) {
   ++revision_;
-  watch_->after_step(made, tears_, read(), held_, engine_->contacts());
+  watch_->after_step(made, tears_, read(), held_, driven_, engine_->contacts());
 }
 
 }  // namespace tyglab

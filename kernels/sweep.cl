@@ -181,6 +181,17 @@ kernel void set_fixed(global REAL* v, global REAL* seen, global const int* list,
   v[at + 2 * stride] = seen[at + 2 * stride] = moves ? hand_z : 0;
 }
 
+/// Stores the velocities of pinned particles that move, and with `put` also where they are. A work-item each.
+kernel void drive_pins(global REAL* x, global REAL* v, global REAL* seen, global const int* list,
+                       global const REAL* values, int put, int stride, int columns) {
+  const int n = (int)get_global_id(0);
+  const int at = place(list[n] / columns, list[n] % columns, 3 * stride);
+  for (int c = 0; c < 3; ++c) {
+    if (put) x[at + c * stride] = values[6 * n + c];
+    v[at + c * stride] = seen[at + c * stride] = values[6 * n + 3 + c];
+  }
+}
+
 /// d = keep d + add a, for all numbers of a field.
 kernel void combine(global REAL* d, global const REAL* a, REAL keep, REAL add) {
   const int n = (int)get_global_id(0);

@@ -135,6 +135,15 @@ void add_hanging_sheet(std::vector<glm::vec3>& points, const Preset& p, const Bo
   }
 }
 
+/// How far paths lead pins away.
+Bounds way_bounds(const Preset& p) {
+  Bounds way;
+  way.add(glm::vec3(0));
+  for (const Pins::Motion& motion : p.pins.motions)
+    for (const PathKey& key : motion.path) way.add(glm::vec3(key.x - on_path(motion.path, 0)));
+  return way;
+}
+
 /// Corners of what is seen once the start is over: where the cloth will be, roughly, and the spheres.
 std::vector<glm::vec3> lasting_points(const Preset& p) {
   std::vector<glm::vec3> points;
@@ -165,6 +174,12 @@ std::vector<glm::vec3> lasting_points(const Preset& p) {
   }
   if (const auto plane = plane_below(p, start.hi.y))
     for (glm::vec3& point : points) point.y = std::max(point.y, float(*plane));
+  if (const Bounds way = way_bounds(p); way.lo != way.hi) {
+    std::vector<glm::vec3> ways;
+    add_corners(ways, way);
+    for (const glm::vec3& point : std::exchange(points, {}))
+      for (const glm::vec3& by : ways) points.push_back(point + by);
+  }
   return points;
 }
 
@@ -208,7 +223,8 @@ Bounds scene_bounds(const Preset& p) {
   if (const auto plane = plane_below(p, b.hi.y)) b.lo.y = std::max(b.lo.y, float(*plane));
   // A slanted sheet swings through: leave it as much room behind its top edge as it has before it.
   if (hangs_from_top(p.pins)) b.lo.z -= 0.35f * (b.hi.z - b.lo.z);
-  const Bounds cloth = b;
+  const Bounds cloth = b, way = way_bounds(p);
+  b.lo += way.lo, b.hi += way.hi;
   for (const Body& body : p.bodies)
     if (const auto box = body_bounds(body, cloth)) b.add(box->lo), b.add(box->hi);
   return b;

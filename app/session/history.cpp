@@ -104,6 +104,8 @@ std::size_t History::bytes() const {
       const Preset& p = entry.constants;
       total += sizeof entry + p.name.size() + p.description.size() + p.bodies.size() * sizeof(Body) +
                p.pins.list.size() * sizeof(Pins::Site);
+      for (const Pins::Motion& motion : p.pins.motions)
+        total += sizeof motion + motion.list.size() * sizeof(Pins::Site) + motion.path.size() * sizeof(PathKey);
     }
   return total;
 }

@@ -131,7 +131,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
   make_steps(due, input);
   // A step of a lab may measure for how long nothing happens.
   const bool measures = labs.run && !labs.run->record().done;
-  if (!background_steps.busy() && !scripted && !any_moves(preset().bodies))
+  if (!background_steps.busy() && !scripted && !any_moves(preset().bodies) && preset().pins.motions.empty())
     sleep.look(*simulation, input.touched || !copies.lockstep.empty() || measures);
 }
 

@@ -110,10 +110,8 @@ State start_state(const Preset& p) {
   return state;
 }
 
-std::vector<std::uint8_t> pinned_particles(const Preset& p) {
-  const Lattice lattice = lattice_of(p);
+std::vector<std::uint8_t> particles_at(const Lattice& lattice, Pins::Mode mode, std::span<const Pins::Site> sites) {
   std::vector<std::uint8_t> mask(std::size_t(lattice.size()), 0);
-  if (p.kind == Kind::one_weight) return mask;
   const int bottom = lattice.rows - 1, right = lattice.columns - 1;
   const auto pin = [&](int i, int j) { mask[std::size_t(i) * lattice.columns + j] = 1; };
   const auto pin_row = [&](int i) {
@@ -122,7 +120,7 @@ std::vector<std::uint8_t> pinned_particles(const Preset& p) {
   const auto pin_column = [&](int j) {
     for (int i = 0; i <= bottom; ++i) pin(i, j);
   };
-  switch (p.pins.mode) {
+  switch (mode) {
     case Pins::Mode::none:
       break;
     case Pins::Mode::top_row:
@@ -141,16 +139,20 @@ std::vector<std::uint8_t> pinned_particles(const Preset& p) {
       pin_row(0), pin_row(bottom), pin_column(0), pin_column(right);
       break;
     case Pins::Mode::list:
-      for (const auto [i, j] : p.pins.list)
+      for (const auto [i, j] : sites)
         if (lattice.contains(i, j)) pin(i, j);
       break;
   }
   return mask;
 }
 
+std::vector<std::uint8_t> pinned_particles(const Preset& p) {
+  return particles_at(lattice_of(p), p.kind == Kind::cloth ? p.pins.mode : Pins::Mode::none, p.pins.list);
+}
+
 bool same_pins(const Preset& a, const Preset& b) {
   if (a.kind != b.kind || lattice_of(a) != lattice_of(b)) return false;
-  return a.pins == b.pins || pinned_particles(a) == pinned_particles(b);
+  return a.pins == b.pins || (a.pins.motions == b.pins.motions && pinned_particles(a) == pinned_particles(b));
 }
 
 std::vector<int> particles_in(const std::vector<std::uint8_t>& mask) {

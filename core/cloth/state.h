@@ -5,29 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <new>
+#include <span>
 #include <vector>
 
+#include "core/cloth/array.h"
 #include "core/cloth/lattice.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
-
-/// Allocator for cache-line (and SIMD) aligned arrays.
-template <class T>
-struct AlignedAllocator {
-  using value_type = T;
-  static constexpr std::align_val_t alignment{64};
-  AlignedAllocator() = default;
-  template <class U>
-  AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
-  bool operator==(const AlignedAllocator&) const { return true; }
-};
-
-template <class T>
-using Array = std::vector<T, AlignedAllocator<T>>;
 
 /// Three components of one quantity over all particles.
 template <class T>
@@ -64,6 +49,8 @@ State start_state(const Preset& preset);
 glm::dvec3 starting_position(const Preset& preset, int i, int j);
 /// That of every free particle, m/s; the mass on a spring moves along y alone.
 glm::dvec3 starting_velocity(const Preset& preset);
+/// Mask over i·columns + j of the particles that `mode` names, or, where that is a list, of `sites`.
+std::vector<std::uint8_t> particles_at(const Lattice& lattice, Pins::Mode mode, std::span<const Pins::Site> sites);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);
 /// Whether both pin the same particles of the same lattice, by a name or by a list.

@@ -16,20 +16,22 @@ class Reader {
   Reader(const Preset& preset, const Tears& tears, const State& state)
       : p_(preset), tears_(tears), state_(state), lattice_(tears.lattice()) {}
 
-  EnergyReading read(const Held& held) const {
+  EnergyReading read(const Held& held, std::span<const DrivenPin> driven) const {
     EnergyReading sum;
-    add_particles(held, sum);
+    add_particles(held, driven, sum);
     if (p_.kind == Kind::cloth)
       for (int d = 0; d < int(directions.size()); ++d)
         for (int i = 0; i + directions[std::size_t(d)].di < lattice_.rows; ++i) add_row(d, i, sum);
     for_each_stencil(p_, [&](const Force& force, const Stencil& stencil) {
       if (!by_rows(force)) add(force, stencil, sum);
     });
-    if (held.particle >= 0) {
+    const auto drive = [&](int particle, const glm::dvec3& velocity) {
       const ParticleForces f =
-          forces_on_particle(p_, tears_, state_, held.particle / lattice_.columns, held.particle % lattice_.columns);
-      sum.power.hand = -glm::dot(f.F_int() + f.F_ext(), held.velocity);
-    }
+          forces_on_particle(p_, tears_, state_, particle / lattice_.columns, particle % lattice_.columns);
+      sum.power.hand -= glm::dot(f.F_int() + f.F_ext(), velocity);
+    };
+    if (held.particle >= 0) drive(held.particle, held.velocity);
+    for (const DrivenPin& pin : driven) drive(pin.particle, pin.v);
     return sum;
   }
 
@@ -37,13 +39,15 @@ class Reader {
   glm::dvec3 x(std::size_t n) const { return {state_.x.x[n], state_.x.y[n], state_.x.z[n]}; }
   glm::dvec3 v(std::size_t n) const { return {state_.v.x[n], state_.v.y[n], state_.v.z[n]}; }
 
-  void add_particles(const Held& held, EnergyReading& sum) const {
+  void add_particles(const Held& held, std::span<const DrivenPin> driven, EnergyReading& sum) const {
     double squares = 0, heights = 0;
     const std::size_t all = std::size_t(lattice_.size());
     for (const auto* component : {&state_.v.x, &state_.v.y, &state_.v.z})
       for (std::size_t n = 0; n < all; ++n) squares += (*component)[n] * (*component)[n];
     for (std::size_t n = 0; n < all; ++n) heights += state_.x.y[n];
-    if (held.particle >= 0) squares -= glm::dot(v(std::size_t(held.particle)), v(std::size_t(held.particle)));
+    const auto leave_out = [&](int p) { squares -= glm::dot(v(std::size_t(p)), v(std::size_t(p))); };
+    if (held.particle >= 0) leave_out(held.particle);
+    for (const DrivenPin& pin : driven) leave_out(pin.particle);
     sum.energy.kinetic = p_.m / 2 * squares;
     sum.energy.of[force::gravity] = p_.m * p_.g * heights;
   }
@@ -100,9 +104,10 @@ class Reader {
 
 }  // namespace
 
-EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held) {
+EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held,
+                          std::span<const DrivenPin> driven) {
   assert(state.x.x.size() == std::size_t(lattice_of(preset).size()));
-  return Reader(preset, tears, state).read(held);
+  return Reader(preset, tears, state).read(held, driven);
 }
 
 }  // namespace tyglab

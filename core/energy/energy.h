@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "core/cloth/state.h"
 #include "core/engines/engine.h"
@@ -10,8 +11,8 @@
 
 namespace tyglab {
 
-/// J: kinetic energy of the particles (without the held one), and the potential energy of each force that has one. That
-/// of gravity is zero at y = 0.
+/// J: kinetic energy of the particles (without the held one and driven pins), and the potential energy of each force
+/// that has one. That of gravity is zero at y = 0.
 struct Energy {
   double kinetic = 0;
   PerForce<double> of;
@@ -24,8 +25,8 @@ struct Energy {
   }
 };
 
-/// W: energy that the cloth gains per second by forces that have no energy of their own, and by the hand. That of
-/// damping is never above 0; pins do no work.
+/// W: energy that the cloth gains per second by forces that have no energy of their own, and by the hand and the pins
+/// that move. That of damping is never above 0.
 struct Power {
   PerForce<double> of;
   double hand = 0;
@@ -38,7 +39,8 @@ struct EnergyReading {
 
 /// `state`: dense, with velocities at the time of the positions. One pass over it for each force; those of springs are
 /// in SIMD where nothing is torn.
-EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held);
+EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held,
+                          std::span<const DrivenPin> driven = {});
 
 // Sums over the springs of one direction that a row of particles owns, in SIMD: the inner loop of the energy.
 

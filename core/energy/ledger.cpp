@@ -116,12 +116,12 @@ void EnergyWatch::before_step(const Preset& preset, const Tears& tears) {
 }
 
 void EnergyWatch::after_step(const Preset& preset, const Tears& tears, const State& state, const Held& held,
-                             std::span<const Contact> contacts) {
-  const EnergyReading now = read_energy(preset, tears, state, held);
+                             std::span<const DrivenPin> driven, std::span<const Contact> contacts) {
+  const EnergyReading now = read_energy(preset, tears, state, held, driven);
   double tearing = 0, contact = 0, before_tearing = now.energy.total();
   const bool broken = preset.F_max > 0 && whole_.torn_count() != tears.torn_count();
   if (broken) {
-    before_tearing = read_energy(preset, whole_, state, held).energy.total();
+    before_tearing = read_energy(preset, whole_, state, held, driven).energy.total();
     tearing = now.energy.total() - before_tearing;
   }
   if (!contacts.empty()) {
@@ -131,7 +131,7 @@ void EnergyWatch::after_step(const Preset& preset, const Tears& tears, const Sta
       freely_.x.x[n] += s.x.x, freely_.x.y[n] += s.x.y, freely_.x.z[n] += s.x.z;
       freely_.v.x[n] += s.v.x, freely_.v.y[n] += s.v.y, freely_.v.z[n] += s.v.z;
     }
-    contact = before_tearing - read_energy(preset, broken ? whole_ : tears, freely_, held).energy.total();
+    contact = before_tearing - read_energy(preset, broken ? whole_ : tears, freely_, held, driven).energy.total();
   }
   ledger_.step(now, preset.dt, contact, tearing);
 }

@@ -37,8 +37,8 @@ struct WorkTotals {
   PerForce<double> of;  ///< forces that have no energy of their own
   double contact = 0;   ///< with bodies: impacts and friction
   double tearing = 0;   ///< energy of springs that broke or were cut
-  double hand = 0;
-  double edits = 0;  ///< jumps when constants, pins or the method change
+  double hand = 0;      ///< and pins that move
+  double edits = 0;     ///< jumps when constants, pins or the method change
   double total() const {
     return of.sum([](const Force&) { return true; }) + contact + tearing + hand + edits;
   }
@@ -97,7 +97,7 @@ class EnergyWatch {
   void before_step(const Preset& preset, const Tears& tears);
   /// One step has led to `state`; `contacts`: what bodies stopped in it.
   void after_step(const Preset& preset, const Tears& tears, const State& state, const Held& held,
-                  std::span<const Contact> contacts);
+                  std::span<const DrivenPin> driven, std::span<const Contact> contacts);
   void edited(const EnergyReading& now, Ledger::Source source) { ledger_.edited(now, source); }
   const Ledger& ledger() const { return ledger_; }
 

@@ -36,6 +36,14 @@ struct Held {
   glm::dvec3 velocity{0, 0, 0};
 };
 
+/// A pinned particle that moves.
+struct DrivenPin {
+  int particle;  ///< i·columns + j
+  glm::dvec3 x;  ///< m
+  glm::dvec3 v;  ///< m/s
+  bool operator==(const DrivenPin&) const = default;
+};
+
 /// Why a run ended.
 struct Divergence {
   double t = 0;           ///< end of the step that diverged, s
@@ -139,6 +147,9 @@ class Engine {
   virtual bool ready_for_contacts() const { return true; }
   /// Fixes these particles from now on, after synchronize() if others are to be fixed.
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
+  /// These pinned particles have these velocities from now on, until set_fixed(); others rest. With `place` they are at
+  /// these positions too.
+  virtual void drive_pins(std::span<const DrivenPin> pins, bool place) = 0;
   /// Allocates the memory that set_fixed() with as many particles, synchronize() and load() need, so that they cannot
   /// fail as parts of a larger change.
   virtual void prepare([[maybe_unused]] std::size_t fixed) {}

@@ -61,8 +61,8 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   const double air = pushes * 2 * u / p.m;
   const double at_hand = std::sqrt(sum_of(&Force::at_particle, p) / p.m);
   acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind + air) + at_hand * hand_speed;
-  // A body that moves may throw the cloth about: what energy that is no formula says.
-  if (any_moves(p.bodies)) acceleration_ = std::numeric_limits<double>::infinity();
+  // A body or pins that move may throw the cloth about: what energy that is no formula says.
+  if (any_moves(p.bodies) || !p.pins.motions.empty()) acceleration_ = std::numeric_limits<double>::infinity();
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
   fastest_mode_ = std::sqrt(sum_of(&Force::largest_eigenvalue, p) / p.m);
   reach_squared_ = reach_squared(p, lattice);

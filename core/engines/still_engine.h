@@ -18,6 +18,7 @@ class StillEngine final : public Engine {
   void synchronize(const Tears&) override {}
   void set_preset(const Preset&, const Tears&) override {}
   void set_fixed(std::span<const int>, Held) override {}
+  void drive_pins(std::span<const DrivenPin>, bool) override {}
   AdvanceResult advance(int, Tears&) override;
   void note_contacts(bool) override {}
 

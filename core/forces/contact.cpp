@@ -41,11 +41,7 @@ namespace {
 glm::dvec3 center_at(const Body& body, double t) {
   if (body.path.empty())
     return (body.shape == Body::Shape::plane ? glm::dvec3(0, body.y, 0) : body.c) + t * body.velocity;
-  const auto next = std::find_if(body.path.begin(), body.path.end(), [&](const Body::Key& key) { return key.t > t; });
-  if (next == body.path.begin()) return next->x;
-  const Body::Key& last = *(next - 1);
-  if (next == body.path.end()) return last.x;
-  return last.x + ((t - last.t) / (next->t - last.t)) * (next->x - last.x);
+  return on_path(body.path, t);
 }
 
 void store(const glm::dvec3& from, double* to) {

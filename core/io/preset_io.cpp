@@ -70,9 +70,9 @@ std::string whole_number_problem(const Row<T>& row, const JsonNode& node) {
          shortest_number(row.max);
 }
 
-std::string pins_problem(const Preset& p) {
-  if (p.pins.mode != Pins::Mode::list) return {};
-  for (const auto [i, j] : p.pins.list)
+std::string sites_problem(const Preset& p, Pins::Mode mode, const std::vector<Pins::Site>& list) {
+  if (mode != Pins::Mode::list) return {};
+  for (const auto [i, j] : list)
     if (i < 0 || i >= p.rows || j < 0 || j >= p.columns)
       return "[" + std::to_string(i) + ", " + std::to_string(j) + "] is outside the cloth; allowed: [0, 0] to [" +
              std::to_string(p.rows - 1) + ", " + std::to_string(p.columns - 1) + "]";
@@ -85,16 +85,38 @@ void drop_other_shapes(Body& body) {
     if (!shape_has(body.shape, row.key)) std::visit([&](auto field) { body.*field = Body().*field; }, row.field);
 }
 
-std::string path_problem(const Body& body) {
-  if (body.path.empty()) return {};
-  if (body.velocity != glm::dvec3(0)) return "a body follows its path or has a velocity, not both; remove one";
-  for (std::size_t n = 0; n < body.path.size(); ++n) {
-    const Body::Key& key = body.path[n];
+std::string path_problem(const std::vector<PathKey>& path) {
+  for (std::size_t n = 0; n < path.size(); ++n) {
+    const PathKey& key = path[n];
     const std::string at = "[" + std::to_string(n) + "] ";
     for (const double value : {key.t, key.x.x, key.x.y, key.x.z})
       if (!(std::abs(value) <= farthest_key)) return at + "must hold numbers from -1000 to 1000";
-    if (n > 0 && !(key.t > body.path[n - 1].t)) return at + "must be later than the one before";
+    if (n > 0 && !(key.t > path[n - 1].t)) return at + "must be later than the one before";
   }
+  return {};
+}
+
+std::string path_problem(const Body& body) {
+  if (!body.path.empty() && body.velocity != glm::dvec3(0))
+    return "a body follows its path or has a velocity, not both; remove one";
+  return path_problem(body.path);
+}
+
+/// What is wrong with a motion of pins.
+std::string motion_problem(const Preset& p, const Pins::Motion& motion) {
+  if (const auto problem = sites_problem(p, motion.mode, motion.list); !problem.empty()) return "pins: " + problem;
+  if (const auto problem = path_problem(motion.path); !problem.empty()) return "path" + problem;
+  for (const auto& [key, v] : {std::pair("spin", motion.spin), std::pair("center", motion.center)})
+    for (int c = 0; c < 3; ++c)
+      if (!(std::abs(v[c]) <= farthest_key)) return std::string(key) + " must hold numbers from -1000 to 1000";
+  if (!(motion.until >= 0 && motion.until <= farthest_key)) return "until must be a number from 0 to 1000 s";
+  return {};
+}
+
+std::string motions_problem(const Preset& p) {
+  for (std::size_t n = 0; n < p.pins.motions.size(); ++n)
+    if (const auto problem = motion_problem(p, p.pins.motions[n]); !problem.empty())
+      return "[" + std::to_string(n) + "] " + problem;
   return {};
 }
 
@@ -177,17 +199,17 @@ class Reader {
     for (int c = 0; c < 3; ++c) value(node.items[c], path + "[" + std::to_string(c) + "]", out[c]);
   }
 
-  void pins(const JsonNode& node, const std::string& path, Pins& out) const {
-    out = {};
+  void sites(const JsonNode& node, const std::string& path, Pins::Mode& mode, std::vector<Pins::Site>& list) const {
+    list.clear();
     if (node.type == Type::text) {
       choice(node, path,
              std::to_array<std::string_view>(
                  {"none", "top_row", "top_corners", "four_corners", "left_column", "boundary"}),
-             out.mode);
+             mode);
       return;
     }
     if (node.type != Type::list) wrong_type(node, path, "a name or a list of [row, column]");
-    out.mode = Pins::Mode::list;
+    mode = Pins::Mode::list;
     for (std::size_t n = 0; n < node.items.size(); ++n) {
       const JsonNode& item = node.items[n];
       const std::string item_path = path + "[" + std::to_string(n) + "]";
@@ -195,11 +217,35 @@ class Reader {
       Pins::Site site;
       value(item.items[0], item_path, site.i);
       value(item.items[1], item_path, site.j);
-      out.list.push_back(site);
+      list.push_back(site);
     }
   }
 
-  void body_path(const JsonNode& node, const std::string& path, std::vector<Body::Key>& out) const {
+  void pin_motion(const JsonNode& node, const std::string& path, Pins::Motion& out) const {
+    if (node.type != Type::object) wrong_type(node, path, "an object {…}");
+    for (const auto& [key, child] : node.members) {
+      const std::string at = path + "." + key;
+      if (key == "pins")
+        sites(child, at, out.mode, out.list);
+      else if (key == "path")
+        keys(child, at, out.path);
+      else if (key == "spin" || key == "center")
+        value(child, at, key == "spin" ? out.spin : out.center);
+      else if (key == "until")
+        value(child, at, out.until);
+      else
+        unknown(child.line, at, key, {"pins", "path", "spin", "center", "until"});
+    }
+  }
+
+  void pin_motions(const JsonNode& node, const std::string& path, std::vector<Pins::Motion>& out) const {
+    if (node.type != Type::list) wrong_type(node, path, "a list of motions");
+    out.assign(node.items.size(), {});
+    for (std::size_t n = 0; n < out.size(); ++n)
+      pin_motion(node.items[n], path + "[" + std::to_string(n) + "]", out[n]);
+  }
+
+  void keys(const JsonNode& node, const std::string& path, std::vector<PathKey>& out) const {
     if (node.type != Type::list) wrong_type(node, path, "a list of [t, x, y, z]");
     if (node.items.size() > most_keys)
       fail(node.line, path, "must be a list of at most " + std::to_string(most_keys) + " keys");
@@ -215,7 +261,7 @@ class Reader {
 
   void body_key(const std::string& key, const JsonNode& node, const std::string& path, Body& body) const {
     if (key == "shape") return choice(node, path, shape_names, body.shape);
-    if (key == "path") return body_path(node, path, body.path);
+    if (key == "path") return keys(node, path, body.path);
     if (const BodyRow* row = find_body_row(key)) return field(node, path, *row, body);
     std::vector<std::string_view> known{"shape", "path"};
     for (const BodyRow& row : body_notation()) known.push_back(row.key);
@@ -240,12 +286,13 @@ class Reader {
   void key(std::string_view section, const std::string& name, const JsonNode& node, const std::string& path,
            Preset& p) const {
     const auto in = [&](std::string_view s) { return section.empty() || section == s; };
-    if (in("cloth") && name == "pins") return pins(node, path, p.pins);
+    if (in("cloth") && name == "pins") return sites(node, path, p.pins.mode, p.pins.list);
+    if (in("cloth") && name == "pin_motions") return pin_motions(node, path, p.pins.motions);
     if (in("solver") && name == "engine") return choice(node, path, engine_names, p.engine);
     if (in("solver") && name == "precision") return choice(node, path, precision_names, p.precision);
     if (const PresetRow* row = find_row(name); row && in(row->section)) return field(node, path, *row, p);
     std::vector<std::string_view> known;
-    if (in("cloth")) known.push_back("pins");
+    if (in("cloth")) known.insert(known.end(), {"pins", "pin_motions"});
     if (in("solver")) known.insert(known.end(), {"engine", "precision"});
     if (section.empty()) known.insert(known.end(), {"kind", "name", "description", "bodies"});
     for (const PresetRow& row : notation())
@@ -420,7 +467,7 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
   if (root.type != Type::object) reader.wrong_type(root, "", "an object {…}");
   if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
   Preset preset;
-  int pins_line = 0, texture_line = 0;
+  int pins_line = 0, motions_line = 0, texture_line = 0;
   for (const auto& [name, node] : root.members) {
     if (name == "tyglab_preset" || reader.top_key(name, node, preset)) continue;
     if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
@@ -432,10 +479,14 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
     for (const auto& [key, child] : node.members) {
       reader.key(name, key, child, name + "." + key, preset);
       if (key == "pins") pins_line = child.line;
+      if (key == "pin_motions") motions_line = child.line;
       if (key == "texture") texture_line = child.line;
     }
   }
-  if (const auto problem = pins_problem(preset); !problem.empty()) reader.fail(pins_line, "cloth.pins", problem);
+  if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
+    reader.fail(pins_line, "cloth.pins", problem);
+  if (const auto problem = motions_problem(preset); !problem.empty())
+    reader.fail(motions_line, "cloth.pin_motions", problem);
   if (!folder.empty())
     if (const auto problem = texture_problem(preset.texture, folder); !problem.empty())
       reader.fail(texture_line, "view.texture", problem);
@@ -478,7 +529,9 @@ std::string check_preset(const Preset& preset) {
     for (const BodyRow& row : body_notation())
       if (const auto problem = value_problem(row, preset.bodies[n]); !problem.empty())
         return "bodies[" + std::to_string(n) + "]." + std::string(row.key) + ": " + problem;
-  if (const auto problem = pins_problem(preset); !problem.empty()) return "cloth.pins: " + problem;
+  if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
+    return "cloth.pins: " + problem;
+  if (const auto problem = motions_problem(preset); !problem.empty()) return "cloth.pin_motions: " + problem;
   return {};
 }
 

@@ -37,12 +37,32 @@ std::string field_text(const Row<T>& row, const T& object) {
       row.field);
 }
 
-std::string pins_text(const Pins& pins) {
-  if (pins.mode != Pins::Mode::list) return json_text(name_of(pins.mode));
+std::string sites_text(Pins::Mode mode, const std::vector<Pins::Site>& list) {
+  if (mode != Pins::Mode::list) return json_text(name_of(mode));
   const auto site = [](const Pins::Site& pin) {
     return "[" + std::to_string(pin.i) + ", " + std::to_string(pin.j) + "]";
   };
-  return "[" + joined(pins.list, ", ", site) + "]";
+  return "[" + joined(list, ", ", site) + "]";
+}
+
+std::string path_text(const std::vector<PathKey>& path) {
+  const auto key_text = [](const PathKey& at) {
+    return "[" + shortest_number(at.t) + ", " + shortest_number(at.x.x) + ", " + shortest_number(at.x.y) + ", " +
+           shortest_number(at.x.z) + "]";
+  };
+  return "[" + joined(path, ", ", key_text) + "]";
+}
+
+std::string motions_text(const std::vector<Pins::Motion>& motions) {
+  const auto text_of = [](const Pins::Motion& motion) {
+    std::string text = "{\"pins\": " + sites_text(motion.mode, motion.list);
+    if (!motion.path.empty()) text += ", \"path\": " + path_text(motion.path);
+    if (motion.spin != glm::dvec3(0)) text += ", \"spin\": " + list_text(motion.spin);
+    if (motion.center != glm::dvec3(0)) text += ", \"center\": " + list_text(motion.center);
+    if (motion.until != 0) text += ", \"until\": " + shortest_number(motion.until);
+    return text + "}";
+  };
+  return "[" + joined(motions, ", ", text_of) + "]";
 }
 
 std::string body_text(const Body& body) {
@@ -53,11 +73,7 @@ std::string body_text(const Body& body) {
     if (!shape_has(body.shape, row.key) || (later && field_text(row, body) == field_text(row, Body{}))) continue;
     text += ", " + json_text(row.key) + ": " + field_text(row, body);
   }
-  const auto key_text = [](const Body::Key& at) {
-    return "[" + shortest_number(at.t) + ", " + shortest_number(at.x.x) + ", " + shortest_number(at.x.y) + ", " +
-           shortest_number(at.x.z) + "]";
-  };
-  if (!body.path.empty()) text += ", \"path\": [" + joined(body.path, ", ", key_text) + "]";
+  if (!body.path.empty()) text += ", \"path\": " + path_text(body.path);
   return text + "}";
 }
 
@@ -83,7 +99,8 @@ std::string section_text(std::string_view section, const Preset& p, bool hashed)
   for (const PresetRow& row : notation())
     if (row.section == section && !is_absent(row, p) && !(hashed && is_left_out(row, p)))
       add(row.key, field_text(row, p));
-  if (section == "cloth") add("pins", pins_text(p.pins));
+  if (section == "cloth") add("pins", sites_text(p.pins.mode, p.pins.list));
+  if (section == "cloth" && !p.pins.motions.empty()) add("pin_motions", motions_text(p.pins.motions));
   if (section == "solver")
     add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
   return "  " + json_text(section) + ": {" + text + "}";
@@ -122,7 +139,8 @@ std::vector<std::string> settings_between(const Preset& from, const Preset& to) 
   add("kind", std::string(name_of(from.kind)), std::string(name_of(to.kind)));
   add("name", setting_text(from.name), setting_text(to.name));
   for (const PresetRow& row : notation()) add(row.key, setting_text(row, from), setting_text(row, to));
-  add("pins", compact(pins_text(from.pins)), compact(pins_text(to.pins)));
+  add("pins", compact(sites_text(from.pins.mode, from.pins.list)), compact(sites_text(to.pins.mode, to.pins.list)));
+  add("pin_motions", compact(motions_text(from.pins.motions)), compact(motions_text(to.pins.motions)));
   add("engine", std::string(name_of(from.engine)), std::string(name_of(to.engine)));
   add("precision", std::string(name_of(from.precision)), std::string(name_of(to.precision)));
   add("bodies", compact(bodies_text(from.bodies)), compact(bodies_text(to.bodies)));

@@ -396,8 +396,9 @@ std::string notation_markdown() {
          "## Constants of a preset\n\n";
   table<Preset>(out, rows);
   out << "\nOther keys: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
-         "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu`, "
-         "`opencl` or `plain`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of "
+         "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `cloth.pin_motions` "
+         "(presets.md), `solver.engine` (`cpu`, `opencl` or `plain`), `solver.precision` (`float` or `double`).\n\n## "
+         "Constants of a body\n\nEach entry of "
          "`bodies` has "
          "a `shape`: `sphere` (c, r), `plane` (y, turn), `box` (c, size, turn), `capsule` or `cylinder` (c, r, "
          "length, turn). Any of them moves with `velocity` and `spin`, or its center follows a `path`: a list of "

@@ -13,7 +13,16 @@ enum class Kind { cloth, one_weight };
 enum class Precision { float_, double_ };
 enum class EngineKind { cpu, opencl, plain };
 
-/// Which particles never move.
+/// Where something is at a time, on a path of straight lines between keys.
+struct PathKey {
+  double t = 0;     ///< s
+  glm::dvec3 x{0};  ///< m
+  bool operator==(const PathKey&) const = default;
+};
+/// Before the first key it is there, after the last one it stays. `path` must not be empty.
+glm::dvec3 on_path(const std::vector<PathKey>& path, double t);
+
+/// Which particles are pinned: forces do not move them.
 struct Pins {
   enum class Mode { none, top_row, top_corners, four_corners, left_column, boundary, list };
   struct Site {
@@ -23,18 +32,23 @@ struct Pins {
   };
   Mode mode = Mode::top_corners;
   std::vector<Site> list;  ///< used by Mode::list alone
+  /// What moves some of the pinned particles: they turn about a point and go along a path.
+  struct Motion {
+    Mode mode = Mode::top_row;  ///< of which pinned particles
+    std::vector<Site> list;
+    std::vector<PathKey> path;  ///< they are as far from where they start as it is from its position at t = 0
+    glm::dvec3 spin{0};         ///< angular velocity about `center`, rad/s
+    glm::dvec3 center{0};       ///< at t = 0, m; it goes along the path too
+    double until = 0;           ///< when the spin ends, s; 0: never
+    bool operator==(const Motion&) const = default;
+  };
+  std::vector<Motion> motions = {};  ///< the first one that picks a particle moves it
   bool operator==(const Pins&) const = default;
 };
 
 /// A body that the cloth collides with (2.1.5). It rests, or moves as told.
 struct Body {
   enum class Shape { sphere, plane, box, capsule, cylinder };
-  /// Where the center is at a time.
-  struct Key {
-    double t = 0;     ///< s
-    glm::dvec3 x{0};  ///< m
-    bool operator==(const Key&) const = default;
-  };
   Shape shape = Shape::sphere;
   glm::dvec3 c{0, 0, 0};           ///< center at the start, m; of all but a plane
   double r = 0.2;                  ///< radius of a sphere, capsule or cylinder, m
@@ -44,7 +58,7 @@ struct Body {
   glm::dvec3 turn{0, 0, 0};        ///< at the start about x, then y, then z, degrees
   glm::dvec3 velocity{0, 0, 0};    ///< of the center, m/s
   glm::dvec3 spin{0, 0, 0};        ///< angular velocity about the center, rad/s
-  std::vector<Key> path = {};      ///< of the center, straight between keys; empty: it moves at `velocity`
+  std::vector<PathKey> path = {};  ///< of the center; empty: it moves at `velocity`
   double friction = 0;             ///< Coulomb's μ
   double restitution = 0;          ///< e: 0 plastic, 1 elastic
   bool operator==(const Body&) const = default;

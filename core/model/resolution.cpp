@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 namespace tyglab {
 
@@ -22,12 +23,14 @@ Preset with_resolution(const Preset& preset, double q) {
   fine.W = preset.W / (taken * taken);
   fine.dt = preset.dt / taken;
   fine.m = preset.m * (double(preset.rows) * preset.columns) / (double(fine.rows) * fine.columns);
-  fine.pins.list.clear();
-  for (const Pins::Site& pin : preset.pins.list) {
-    const Pins::Site site = site_in_resolution(pin, preset, fine);
-    if (std::find(fine.pins.list.begin(), fine.pins.list.end(), site) == fine.pins.list.end())
-      fine.pins.list.push_back(site);
-  }
+  const auto in_fine = [&](std::vector<Pins::Site>& list) {
+    for (const Pins::Site& pin : std::exchange(list, {}))
+      if (const Pins::Site site = site_in_resolution(pin, preset, fine);
+          std::find(list.begin(), list.end(), site) == list.end())
+        list.push_back(site);
+  };
+  in_fine(fine.pins.list);
+  for (Pins::Motion& motion : fine.pins.motions) in_fine(motion.list);
   return fine;
 }
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/cloth/state.h"
+#include "core/cloth/array.h"
 
 namespace tyglab::simd {
 

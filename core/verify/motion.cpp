@@ -126,6 +126,35 @@ void damped_oscillation(Trial& trial) {
   }
 }
 
+/// A mass hangs from a pin that moves up from t = 0 on; how far it has risen after 1.1 turns in n steps, m.
+constexpr double towed_at = 0.3;  // m/s: slowly enough that the spring stays taut
+double towed(Trial& trial, Preset preset, int n) {
+  const double turns = 2.2 * pi / std::sqrt(preset.k_s / preset.m);
+  preset.dt = turns / n;
+  Simulation simulation = trial.start(preset);
+  const double begin = simulation.position(1, 0).y;
+  trial.advance(simulation, n);
+  return simulation.position(1, 0).y - begin;
+}
+
+void tow(Trial& trial) {
+  for (const Scheme& method : schemes()) {
+    if (method.order_undamped == 1) continue;
+    Preset preset = quiet_cloth(2, 1, method.name);
+    preset.m = 0.1, preset.k_s = 40, preset.g = g, preset.L = 0.1;
+    preset.initial_stretch = 1 + preset.m * g / (preset.k_s * preset.L);
+    preset.pins.mode = Pins::Mode::top_row;
+    preset.pins.motions = {{.path = {{0, {0, 0, 0}}, {10, {0, 10 * towed_at, 0}}}}};
+    const double w = std::sqrt(preset.k_s / preset.m), t = 2.2 * pi / w;
+    const double exact = towed_at * (t - std::sin(w * t) / w);
+    if (!chooses_steps(method))
+      trial.converges(method.order_undamped,
+                      {error_of(exact, towed(trial, preset, 100)), error_of(exact, towed(trial, preset, 200))},
+                      preset.integrator);
+    trial.compare(exact, towed(trial, preset, 1000), preset.integrator);
+  }
+}
+
 /// Length of a spring at whose end a weight bounces, dropped at rest where the spring is slack: free fall, half a swing
 /// on the taut spring, and back up.
 double bouncing_length(const Preset& p, double slack, double t) {
@@ -282,6 +311,11 @@ std::span<const Case> motion_cases() {
       Case{"oscillation", "Undamped mass on a spring",
            "A mass swings on its spring for 1.1 turns, by every method of second order and above.",
            "$y = A \\cos\\sqrt{k/m}\\,t$", "Report (2.3), figure 3.2", "m", 1e-4, 0.15, oscillation},
+      Case{"tow", "A mass that is lifted by its spring",
+           "A mass hangs at rest from a pin that moves up at a constant velocity from $t = 0$ on: it follows, and "
+           "swings.",
+           "$y = V t - \\frac{V}{w}\\sin wt$, $w = \\sqrt{k_s/m}$", "Report (2.3), seen from the pin", "m", 1e-4, 0.15,
+           tow},
       Case{"oscillation_first_order", "Undamped mass on a spring by methods of first order",
            "The same swing by the methods of first order, with 50,000 steps.", "$y = A \\cos\\sqrt{k/m}\\,t$",
            "Report (2.3), figure 3.2", "m", 1e-3, 0.1, oscillation_first_order},

@@ -17,6 +17,7 @@ class LostEngine final : public Engine {
   void synchronize(const Tears& tears) override { engine_->synchronize(tears); }
   void set_preset(const Preset& preset, const Tears& tears) override { engine_->set_preset(preset, tears); }
   void set_fixed(std::span<const int> pinned, Held held) override { engine_->set_fixed(pinned, held); }
+  void drive_pins(std::span<const DrivenPin> pins, bool place) override { engine_->drive_pins(pins, place); }
   AdvanceResult advance(int steps, Tears& tears) override {
     if (left_-- == 0) throw EngineError("OpenCL, making a step: the device is not available.");
     return engine_->advance(steps, tears);

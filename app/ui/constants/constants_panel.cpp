@@ -174,11 +174,16 @@ void pins_row(Ui& ui) {
                             Pins::Mode::left_column, Pins::Mode::boundary}) {
       if (!ImGui::Selectable(pins_text({mode, {}}).c_str(), pins.mode == mode) || pins.mode == mode) continue;
       Preset next = ui.session.requested_preset();
-      next.pins = {mode, {}};
+      next.pins.mode = mode, next.pins.list.clear();
       ui.session.propose(std::move(next));
     }
     end_combo();
   });
+  if (const std::size_t motions = ui.session.requested_preset().pins.motions.size(); motions > 0)
+    labeled_row(ui, "pins move", [&](float) {
+      ImGui::TextUnformatted((std::to_string(motions) + (motions == 1 ? " motion" : " motions")).c_str());
+      tooltip(ui, gui::item_id(), "Pins follow paths or turn, as pin_motions in the preset's file says.");
+    });
 }
 
 std::string fabric_words(const Fabric& fabric, double g) {

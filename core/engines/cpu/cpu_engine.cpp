@@ -328,7 +328,8 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::prepare(std::size_t fixed) {
-  pinned_.reserve(fixed), all_fixed_.reserve(fixed + 1), cloth_.fixed_columns.reserve(fixed + 1);
+  pinned_.reserve(fixed), driven_.reserve(fixed), all_fixed_.reserve(fixed + 1),
+      cloth_.fixed_columns.reserve(fixed + 1);
   cloth_.fixed.reserve(std::size_t(cloth_.lattice.size()) + widest_vector);
   guards_.reserve(std::size_t(cloth_.lattice.size()));
   rows_.resize(6 * std::size_t(team_->capacity()) * cloth_.lattice.columns);
@@ -347,7 +348,7 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   if (any) cloth_.fixed.reserve(particles + widest_vector), guards_.reserve(particles);
   // Who is let go may be inside a body.
   if (lets_go(pinned_, cloth_.held.particle, pinned, held.particle)) guard_.expect_pushes();
-  pinned_.assign(pinned.begin(), pinned.end());
+  pinned_.assign(pinned.begin(), pinned.end()), driven_.clear();
   cloth_.held = held;
   guard_.set_scene(cloth_.preset, cloth_.lattice, held);
   springs_changed_ = true;
@@ -375,15 +376,28 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   guard_.invalidate();
 }
 
-/// Pinned particles rest, and the held one has the velocity of the hand.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::drive_pins(std::span<const DrivenPin> pins, bool place) {
+  driven_.assign(pins.begin(), pins.end());
+  const int columns = cloth_.lattice.columns;
+  if (place)
+    for (const DrivenPin& pin : driven_)
+      for (int c = 0; c < 3; ++c) cloth_.row(vector_x, pin.particle / columns, c)[pin.particle % columns] = R(pin.x[c]);
+  write_fixed_velocities();
+  knows_first_a_ = false;
+  guard_.invalidate();
+}
+
+/// Pinned particles rest or are driven, and the held one has the velocity of the hand.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::write_fixed_velocities() {
-  for (const int p : all_fixed_) {
+  const auto write = [&](int p, const glm::dvec3& v) {
     const int i = p / cloth_.lattice.columns, j = p % cloth_.lattice.columns;
-    const glm::dvec3 v = p == cloth_.held.particle ? cloth_.held.velocity : glm::dvec3(0);
     for (const int vector : {vector_v, cloth_.seen_velocity})
       for (int c = 0; c < 3; ++c) cloth_.row(vector, i, c)[j] = R(v[c] * cloth_.velocity_scale());
-  }
+  };
+  for (const int p : all_fixed_) write(p, p == cloth_.held.particle ? cloth_.held.velocity : glm::dvec3(0));
+  for (const DrivenPin& pin : driven_) write(pin.particle, pin.v);
 }
 
 template <class R, unsigned Present>

@@ -70,6 +70,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void synchronize(const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
+  void drive_pins(std::span<const DrivenPin> pins, bool place) override;
   void prepare(std::size_t fixed) override;
   AdvanceResult advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override { cloth_.notes_contacts = on; }
@@ -242,7 +243,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
   std::vector<int> pinned_;
   std::vector<int> all_fixed_;  ///< the same and the held one, in rising order
-  Array<double> rows_;          ///< of load(): six for each thread; else empty
+  std::vector<DrivenPin> driven_;
+  Array<double> rows_;  ///< of load(): six for each thread; else empty
   std::vector<Contact>
       inner_contacts_;                 ///< sums over all inner steps of the last dt, of each particle that was stopped
   std::vector<int> inner_contact_of_;  ///< where a particle's sum is; -1: it has none

@@ -79,6 +79,7 @@ typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& pr
   if (!scheme_->start.empty()) kernels.start = program->kernel("start");
   kernels.accelerations = program->kernel("accelerations");
   kernels.set_fixed = program->kernel("set_fixed");
+  kernels.drive_pins = program->kernel("drive_pins");
   kernels.combine = program->kernel("combine");
   kernels.tear = program->kernel("tear");
   kernels.derive_masks = program->kernel("derive_masks");
@@ -360,7 +361,7 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
       held.particle == held_.particle && std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   // Who is let go may be inside a body.
   if (lets_go(pinned_, held_.particle, pinned, held.particle)) guard_.expect_pushes();
-  pinned_.assign(pinned.begin(), pinned.end());
+  pinned_.assign(pinned.begin(), pinned.end()), driven_.clear();
   held_ = held;
   guard_.set_scene(preset_, lattice_, held_);
   if (!same) {
@@ -375,9 +376,17 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
   write_fixed_velocities();
 }
 
-/// Pinned particles and the held one have the velocity that they are given.
 template <class R>
-void OpenClEngine<R>::write_fixed_velocities() {
+void OpenClEngine<R>::drive_pins(std::span<const DrivenPin> pins, bool place) {
+  driven_.assign(pins.begin(), pins.end());
+  guard_.invalidate();
+  write_fixed_velocities(place);
+}
+
+/// Pinned particles and the held one have the velocity that they are given; with `place`, those that are driven also
+/// the position.
+template <class R>
+void OpenClEngine<R>::write_fixed_velocities(bool place) {
   if (pinned_.empty() && held_.particle < 0) return;
   state_.end_views();
   const cl_mem v = state_.vector(vector_v), seen = state_.vector(this->seen()), list = fixed_list_.get();
@@ -386,6 +395,30 @@ void OpenClEngine<R>::write_fixed_velocities() {
                 R(hand.y), R(hand.z), cl_int(state_.stride()), cl_int(lattice_.columns));
   const std::size_t items = pinned_.size() + 1;
   check(clEnqueueNDRangeKernel(device_->queue(), kernels_.set_fixed.get(), 1, nullptr, &items, nullptr, 0, nullptr,
+                               nullptr),
+        "starting a kernel");
+  if (driven_.empty()) return;
+  // A particle, where it is, and its velocity.
+  std::vector<R> values;
+  std::vector<int> particles;
+  for (const DrivenPin& pin : driven_) {
+    particles.push_back(pin.particle);
+    for (int c = 0; c < 3; ++c) values.push_back(R(pin.x[c]));
+    for (int c = 0; c < 3; ++c) values.push_back(R(pin.v[c] * velocity_scale()));
+  }
+  const auto on_device = [&](const void* from, std::size_t bytes) {
+    Memory memory = device_->zeros(bytes);
+    check(clEnqueueWriteBuffer(device_->queue(), memory.get(), CL_TRUE, 0, bytes, from, 0, nullptr, nullptr),
+          "writing to the device");
+    return memory;
+  };
+  const Memory which = on_device(particles.data(), particles.size() * sizeof(int));
+  const Memory what = on_device(values.data(), values.size() * sizeof(R));
+  const cl_mem x = state_.vector(vector_x), numbers = which.get(), list_of_values = what.get();
+  set_arguments(kernels_.drive_pins, 0, x, v, seen, numbers, list_of_values, cl_int(place), cl_int(state_.stride()),
+                cl_int(lattice_.columns));
+  const std::size_t driven = driven_.size();
+  check(clEnqueueNDRangeKernel(device_->queue(), kernels_.drive_pins.get(), 1, nullptr, &driven, nullptr, 0, nullptr,
                                nullptr),
         "starting a kernel");
 }

@@ -56,6 +56,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool ready_for(const Preset& preset) const override;
   bool ready_for_contacts() const override;
   void set_fixed(std::span<const int> pinned, Held held) override;
+  void drive_pins(std::span<const DrivenPin> pins, bool place) override;
   AdvanceResult advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override;
   std::vector<Contact> contacts() const override {
@@ -81,7 +82,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   /// The kernels for one set of features.
   struct Kernels {
     std::vector<Kernel> passes;  ///< an empty one for a solution
-    Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, derive_linear, look, to_float;
+    Kernel start, accelerations, residual, set_fixed, drive_pins, combine, tear, derive_masks, derive_linear, look,
+        to_float;
     typename DeviceSolver<R>::Kernels solver;
   };
   /// A sweep with its constants; for a solution, those of its residual.
@@ -138,7 +140,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void enqueue_tear(int slot);
   /// Writes F/m of the present state into acceleration_.
   void accelerations() const;
-  void write_fixed_velocities();
+  void write_fixed_velocities(bool place = false);
   /// Brings masks, guards and backup up to date with changes from outside.
   void accept_changes(const Tears& tears);
   void upload_masks(const Tears& tears);
@@ -188,6 +190,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   Memory guards_, reports_, hand_, fixed_list_, bodies_, contact_list_, shares_, linear_;
   int share_count_ = 0;
   std::vector<int> pinned_;
+  std::vector<DrivenPin> driven_;
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;
   bool synchronized_ = true;  ///< vectors 0 and 1 hold positions and velocities of one time, others nothing

@@ -39,6 +39,7 @@ class PlainEngine final : public Engine, private GuardedSteps {
   void synchronize(const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
+  void drive_pins(std::span<const DrivenPin> pins, bool place) override;
   AdvanceResult advance(int steps, Tears& tears) override {
     if (guard_.springs_cut(tears)) guard_.accept_cuts(tears);
     return guard_.advance(*this, steps, tears, stop());
@@ -109,6 +110,7 @@ class PlainEngine final : public Engine, private GuardedSteps {
   int stride_;
   simd::RowField<double> x_, v_;
   std::vector<int> pinned_;
+  std::vector<DrivenPin> driven_;
   Held held_;
   StepGuard guard_;
 };
@@ -164,7 +166,7 @@ void PlainEngine::set_preset(const Preset& preset, const Tears& tears) {
 
 void PlainEngine::set_fixed(std::span<const int> pinned, Held held) {
   if (lets_go(pinned_, held_.particle, pinned, held.particle)) guard_.expect_pushes();
-  pinned_.assign(pinned.begin(), pinned.end()), held_ = held;
+  pinned_.assign(pinned.begin(), pinned.end()), driven_.clear(), held_ = held;
   cloth_.held = held.particle;
   std::fill(cloth_.fixed.begin(), cloth_.fixed.end(), std::uint8_t(0));
   for (const int p : pinned_) cloth_.fixed[std::size_t(p)] = 1;
@@ -174,12 +176,24 @@ void PlainEngine::set_fixed(std::span<const int> pinned, Held held) {
   guard_.invalidate();
 }
 
-/// Pinned particles rest, and the held one has the velocity of the hand.
+void PlainEngine::drive_pins(std::span<const DrivenPin> pins, bool place) {
+  driven_.assign(pins.begin(), pins.end());
+  if (place)
+    for (const DrivenPin& pin : driven_) cloth_.vectors[vector_x][std::size_t(pin.particle)] = pin.x;
+  write_fixed_velocities();
+  guard_.invalidate();
+}
+
+/// Pinned particles rest or are driven, and the held one has the velocity of the hand.
 void PlainEngine::write_fixed_velocities() {
   for (std::size_t p = 0; p < cloth_.fixed.size(); ++p) {
     if (cloth_.fixed[p] == 0) continue;
     const glm::dvec3 v = int(p) == held_.particle ? held_.velocity * cloth_.velocity_scale() : glm::dvec3(0);
     cloth_.vectors[vector_v][p] = cloth_.seen()[p] = v;
+  }
+  for (const DrivenPin& pin : driven_) {
+    const std::size_t p = std::size_t(pin.particle);
+    cloth_.vectors[vector_v][p] = cloth_.seen()[p] = pin.v * cloth_.velocity_scale();
   }
   write_rows();
 }
