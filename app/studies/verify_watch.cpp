@@ -6,9 +6,13 @@ namespace tyglab {
 namespace {
 
 VerifiedCase verified(const verify::Outcome& outcome) {
-  VerifiedCase one{std::string(outcome.of->name), outcome.exact, outcome.measured, outcome.error, {}, outcome.ok(), {}};
+  VerifiedCase one;
+  one.name = outcome.of->name;
+  one.exact = outcome.exact, one.measured = outcome.measured, one.error = outcome.error, one.ok = outcome.ok();
   if (outcome.order) one.order = outcome.order->measured;
   one.at = outcome.problem.empty() ? outcome.at : outcome.problem;
+  one.rows = outcome.picture.rows, one.columns = outcome.picture.columns;
+  one.x.assign(outcome.picture.x.begin(), outcome.picture.x.end());
   return one;
 }
 

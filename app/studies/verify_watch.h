@@ -1,6 +1,7 @@
 // Measures the gallery of `tyglab verify` in the background, on request.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct VerifiedCase {
   std::optional<double> order;
   bool ok = false;
   std::string at;  ///< what is wrong, or which comparison is told
+  int rows = 0, columns = 0;
+  std::vector<glm::vec3> x;  ///< the cloth of its last motion, row by row, m
 };
 
 /// The results of a run, in the order of the gallery.
@@ -28,8 +31,8 @@ struct VerifyFindings {
 
 template <class Visit>
 void visit_parts(Visit&& visit, VerifiedCase& one) {
-  auto& [name, exact, measured, error, order, ok, at] = one;
-  visit(name, exact, measured, error, order, ok, at);
+  auto& [name, exact, measured, error, order, ok, at, rows, columns, x] = one;
+  visit(name, exact, measured, error, order, ok, at, rows, columns, x);
 }
 template <class Visit>
 void visit_parts(Visit&& visit, VerifyFindings& findings) {

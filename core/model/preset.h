@@ -35,11 +35,11 @@ struct Pins {
   /// What moves some of the pinned particles: they turn about a point and go along a path.
   struct Motion {
     Mode mode = Mode::top_row;  ///< of which pinned particles
-    std::vector<Site> list;
-    std::vector<PathKey> path;  ///< they are as far from where they start as it is from its position at t = 0
-    glm::dvec3 spin{0};         ///< angular velocity about `center`, rad/s
-    glm::dvec3 center{0};       ///< at t = 0, m; it goes along the path too
-    double until = 0;           ///< when the spin ends, s; 0: never
+    std::vector<Site> list = {};
+    std::vector<PathKey> path = {};  ///< they are as far from where they start as it is from its position at t = 0
+    glm::dvec3 spin{0};              ///< angular velocity about `center`, rad/s
+    glm::dvec3 center{0};            ///< at t = 0, m; it goes along the path too
+    double until = 0;                ///< when the spin ends, s; 0: never
     bool operator==(const Motion&) const = default;
   };
   std::vector<Motion> motions = {};  ///< the first one that picks a particle moves it

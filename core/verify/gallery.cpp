@@ -80,6 +80,24 @@ Preset Trial::scene(Preset preset) const {
   return preset;
 }
 
+void Trial::show(const Simulation& simulation) const {
+  const Lattice& lattice = simulation.lattice();
+  const auto drawn = [](int count) {
+    std::vector<int> all;
+    const int parts = std::min(count, Picture::most) - 1;
+    for (int n = 0; n <= parts; ++n) all.push_back(parts > 0 ? int(std::lround(n * double(count - 1) / parts)) : 0);
+    return all;
+  };
+  const std::vector<int> rows = drawn(lattice.rows), columns = drawn(lattice.columns);
+  Picture picture{int(rows.size()), int(columns.size()), {}, {}, simulation.bodies()};
+  for (const int i : rows)
+    for (const int j : columns) {
+      if (simulation.pinned(i, j)) picture.pinned.push_back(int(picture.x.size()));
+      picture.x.push_back(simulation.position(i, j));
+    }
+  outcome_.picture = std::move(picture);
+}
+
 void Trial::look() const {
   if (conditions_.stop && conditions_.stop()) throw Stopped();
 }
@@ -88,6 +106,7 @@ void Trial::advance(Simulation& simulation, std::int64_t steps) const {
   constexpr std::int64_t at_once = 1 << 20;
   for (; steps > 0 && !simulation.divergence(); steps -= at_once)
     advance_study(simulation, int(std::min(steps, at_once)), conditions_.stop);
+  show(simulation);
   if (simulation.divergence()) throw std::runtime_error("the motion diverged");
 }
 

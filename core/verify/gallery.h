@@ -63,6 +63,15 @@ struct Refinement {
   std::vector<double> errors;  ///< relative, coarsest first
 };
 
+/// A cloth (or a mass on a spring) at a moment of a case, with at most `most` of its rows and columns.
+struct Picture {
+  static constexpr int most = 25;
+  int rows = 0, columns = 0;
+  std::vector<glm::dvec3> x;  ///< row by row, m
+  std::vector<int> pinned;    ///< which of them
+  std::vector<Body> bodies;   ///< as they are at that moment
+};
+
 /// What a case has measured. Of several comparisons and orders the worst is told.
 struct Outcome {
   const Case* of = nullptr;
@@ -71,6 +80,7 @@ struct Outcome {
   std::string at;    ///< which of several comparisons this is: "rk4"
   int comparisons = 0;
   std::optional<Refinement> order;
+  Picture picture;      ///< of the last motion
   double seconds = 0;   ///< of one processor
   std::string problem;  ///< why nothing more was measured; empty: all was
   bool ok() const;

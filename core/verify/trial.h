@@ -31,6 +31,8 @@ class Trial {
   void advance(Simulation& simulation, std::int64_t steps) const;
   /// Throws Stopped if it has to; for long work of another kind.
   void look() const;
+  /// The case's picture is that of this moment, unless another one follows.
+  void show(const Simulation& simulation) const;
 
   /// Compares two values; the case tells the comparison with the largest error. Returns the error.
   double compare(double exact, double measured, const std::string& at = {});

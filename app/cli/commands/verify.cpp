@@ -12,6 +12,7 @@
 #include "core/analysis/machine.h"
 #include "core/analysis/study_run.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 #include "core/verify/gallery.h"
 
 namespace tyglab {
@@ -64,6 +65,26 @@ std::function<void(Preset&)> disturbance(const std::string& text) {
   };
 }
 
+/// Lengths in m, to a ten-thousandth of a drawing of that size.
+Json picture_json(const verify::Picture& picture) {
+  const auto place = [](const glm::dvec3& x) {
+    const auto rounded = [](double value) { return std::isfinite(value) ? std::round(value * 1e5) / 1e5 : 0; };
+    return Json{rounded(x.x), rounded(x.y), rounded(x.z)};
+  };
+  Json x = Json::array(), bodies = Json::array();
+  for (const glm::dvec3& at : picture.x) x.push_back(place(at));
+  for (const Body& body : picture.bodies)
+    bodies.push_back({{"shape", name_of(body.shape)},
+                      {"c", place(body.c)},
+                      {"y", body.y},
+                      {"r", body.r},
+                      {"size", place(body.size)},
+                      {"length", body.length},
+                      {"turn", place(body.turn)}});
+  return {
+      {"rows", picture.rows}, {"columns", picture.columns}, {"x", x}, {"pinned", picture.pinned}, {"bodies", bodies}};
+}
+
 Json case_json(const Outcome& outcome) {
   const Case& of = *outcome.of;
   Json json = {{"name", of.name},
@@ -88,6 +109,7 @@ Json case_json(const Outcome& outcome) {
     for (const double error : outcome.order->errors) json["errors"].push_back(finite_or_null(error));
   }
   if (!outcome.problem.empty()) json["problem"] = outcome.problem;
+  json["picture"] = picture_json(outcome.picture);
   return json;
 }
 

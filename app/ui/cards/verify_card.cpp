@@ -1,6 +1,12 @@
 // The card of the gallery of `tyglab verify`: cases with exact or published answers, measured here and now.
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "app/base/text.h"
 #include "app/ui/cards/cards.h"
@@ -13,7 +19,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float verify_line_at_1 = 62, verify_mark_at_1 = 20;  // pixels at scale 1
+constexpr float verify_line_at_1 = 62, verify_mark_at_1 = 20, verify_picture_at_1 = 54;  // pixels at scale 1
 
 /// "measured 0.3312 m, exact 0.3310 m", or that it has not been measured.
 std::string value_words(const verify::Case& of, const VerifiedCase* one) {
@@ -44,6 +50,33 @@ void verify_tooltip(Ui& ui, const verify::Case& of, const VerifiedCase* one) {
   end_tooltip(ui);
 }
 
+/// The rows and columns of a case's last motion, seen from the front and a little from the right and above.
+void verify_picture(const Tokens& c, const VerifiedCase& one, ImVec2 lo, float side) {
+  constexpr float yaw = 0.45f, pitch = 0.3f;
+  std::vector<glm::vec2> seen;
+  glm::vec2 least{std::numeric_limits<float>::infinity()}, most = -least;
+  for (const glm::vec3& x : one.x) {
+    const float depth = x.z * std::cos(yaw) + x.x * std::sin(yaw);
+    seen.emplace_back(x.x * std::cos(yaw) - x.z * std::sin(yaw), depth * std::sin(pitch) - x.y * std::cos(pitch));
+    least = glm::min(least, seen.back()), most = glm::max(most, seen.back());
+  }
+  const float size = std::max({most.x - least.x, most.y - least.y, 1e-9f});
+  const glm::vec2 shift = (glm::vec2(side) - (most - least) * (side / size)) / 2.0f;
+  const auto at = [&](int i, int j) {
+    const glm::vec2 p = shift + (seen[std::size_t(i * one.columns + j)] - least) * (side / size);
+    return ImVec2(lo.x + p.x, lo.y + p.y);
+  };
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (int i = 0; i < one.rows; ++i)
+    for (int j = 0; j < one.columns; ++j) {
+      if (i > 0) draw.AddLine(at(i - 1, j), at(i, j), c.quiet);
+      if (j > 0) draw.AddLine(at(i, j - 1), at(i, j), c.quiet);
+    }
+  if (one.rows * one.columns <= 2)
+    for (std::size_t p = 0; p < seen.size(); ++p)
+      draw.AddCircleFilled(at(int(p) / one.columns, int(p) % one.columns), 3, c.text);
+}
+
 void verify_line(Ui& ui, const verify::Case& of, const VerifiedCase* one, float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -60,8 +93,13 @@ void verify_line(Ui& ui, const verify::Case& of, const VerifiedCase* one, float 
   if (one != nullptr)
     draw_on_baseline(draw, *ui.fonts.text, {lo.x + ui.theme.px(2), baseline(0.2f)}, one->ok ? c.good : c.danger,
                      one->ok ? icon_or(ui.fonts, icon::check, "+") : icon_or(ui.fonts, icon::close, "x"));
+  float room = width - mark;
+  if (const float side = ui.theme.px(verify_picture_at_1); one != nullptr && !one->x.empty() && room > 3 * side) {
+    room -= side + ui.theme.px(8);
+    verify_picture(c, *one, {lo.x + width - side, lo.y + (height - side) / 2}, side);
+  }
   const auto write = [&](const ImFont& font, float part, ImU32 color, const std::string& text) {
-    draw_on_baseline(draw, font, {lo.x + mark, baseline(part)}, color, fitted(font, text, width - mark));
+    draw_on_baseline(draw, font, {lo.x + mark, baseline(part)}, color, fitted(font, text, room));
   };
   write(*ui.fonts.text, 0.2f, c.text, std::string(of.title));
   write(*ui.fonts.small, 0.5f, c.quiet, value_words(of, one));
