@@ -39,8 +39,8 @@ std::string take_engine_along(const Session& session, Preset& next) {
   const Force* missing = opencl ? missing_on_opencl(next) : nullptr;
   if (missing == nullptr && (runs || next.integrator == session.requested_preset().integrator)) return {};
   next.engine = EngineKind::cpu;
-  return (missing != nullptr && runs ? std::string(missing->symbol) + " with " : std::string()) +
-         std::string(method.title) + " runs only on the CPU engine, so that engine was chosen.";
+  return (missing != nullptr && runs ? words_of_missing(*missing, method.title) : std::string(method.title)) +
+         " runs only on the CPU engine, so that engine was chosen.";
 }
 
 void ask_about_changes(Session& session, Request then) {

@@ -144,7 +144,7 @@ EngineChoice choose_engine(const Preset& preset, int threads) {
   const Scheme& method = scheme(preset.integrator);
   if (!runs_on_opencl(method)) return only_cpu("no other engine runs " + std::string(method.name));
   if (const Force* force = missing_on_opencl(preset))
-    return only_cpu("no device computes " + std::string(force->symbol) + " with " + std::string(method.name));
+    return only_cpu("no device computes " + words_of_missing(*force, method.name));
   const OpenClInventory inventory = opencl_devices();
   if (inventory.devices.empty())
     return only_cpu("there is no OpenCL device" + (inventory.problem.empty() ? "" : " (" + inventory.problem + ")"));

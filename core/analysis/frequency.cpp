@@ -84,6 +84,7 @@ Linearisation::Linearisation(const Simulation& simulation, Stop stop)
   const Preset& p = simulation.preset();
   weight_ = {p.k / p.m, p.k_d / p.m};
   if (!lattice_) return;
+  if (force::curl.on(p)) curl_ = force::curl.largest_eigenvalue(p) / p.m;
   coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), 0);
   damping_.assign(std::size_t(rows_) * springs_of_a_particle * stride_, 0);
   const PositionView view = simulation.positions();
@@ -225,7 +226,7 @@ double Linearisation::largest_damping(double tolerance) const {
 double Linearisation::largest_stiffness(double tolerance) const {
   if (!lattice_) return weight_.stiffness;
   std::vector<double> ignored;
-  return all_fixed() ? 0 : iterate(coefficients_, tolerance, ignored);
+  return all_fixed() ? 0 : iterate(coefficients_, tolerance, ignored) + curl_;
 }
 
 Mode Linearisation::extreme(double stiffness, double damping, double tolerance) const {
@@ -242,7 +243,7 @@ Mode Linearisation::extreme(double stiffness, double damping, double tolerance) 
   for (std::size_t k = 1; k < s.size() && next(a, before, now, product, t); ++k)
     for (std::size_t n = 0; n < mode.all().size(); ++n) mode.all()[n] += s[k] * now.all()[n];
   const double length = inner(mode, mode);
-  return {multiply(coefficients_, mode, product) / length, multiply(combined(0, 1), mode, product) / length};
+  return {multiply(coefficients_, mode, product) / length + curl_, multiply(combined(0, 1), mode, product) / length};
 }
 
 std::vector<Mode> extreme_modes(const Linearisation& cloth, double tolerance) {

@@ -49,6 +49,7 @@ class Linearisation {
   bool damped_;
   Mode weight_;  ///< the mass on a spring's, which is no lattice
   bool lattice_;
+  double curl_ = 0;             ///< what F_curl adds to K/m at most
   std::vector<int> fixed_;      ///< i·columns + j
   Array<double> coefficients_;  ///< of K/m, as in stiffness.h
   Array<double> damping_;       ///< k_d/m of every whole stretch spring; laid out as the coefficients' t

@@ -208,10 +208,11 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
     return glm::dvec3(state.x_row(i, 0)[j], state.x_row(i, 1)[j], state.x_row(i, 2)[j]);
   };
   for_each_stencil(preset, [&](const Force& force, const Stencil& stencil) {
-    if (force.linear == nullptr) return;
+    if (force.linear == nullptr && &force != &force::curl) return;
     for_each_action(preset, tears, force, stencil, x_of, x_of,
                     [&](const Points&, const ForceAction& action) { motion.squared += 2 / preset.m * action.energy; });
   });
+  motion.squared += 2 / preset.m * curl_below_zero(preset) * lattice.size();
   return motion;
 }
 

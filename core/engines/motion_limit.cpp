@@ -39,7 +39,7 @@ double reach_squared(const Preset& p, const Lattice& lattice) {
     const double longest = weights * longest_factor * 2 * p.L;
     sum += double(lattice.size()) * force.linear(p, stencil) / p.m * longest * longest;
   });
-  return sum;
+  return sum + double(lattice.size()) * 2 / p.m * most_curl_energy(p, longest_factor);
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ struct Stencil {
   int springs = 0;
   std::array<Spring, most_springs> spring{};  ///< it acts while these are whole
   Owners owners = Owners::all;
+  bool alone = false;  ///< it acts only while `other` is not whole, or leaves the cloth
+  Spring other{};
 
   /// Whether particle (i, j) owns one that acts.
   bool acts(const Tears& tears, int i, int j) const;
@@ -73,7 +75,7 @@ struct Force {
   std::span<const Stencil> (*stencils)(const Preset&);
   void (*act)(const Preset&, const Stencil&, const Points&, ForceAction&);
 
-  // Forces with a potential φ(|d|):
+  // Forces with a potential φ(|d|), of which those with bounds that are not of that kind have only the last three:
   Potential (*potential)(const Preset&, const Stencil&, double d_squared) = nullptr;
   /// κ, N/m, where φ = ½κ|d|² and Σ w = 0: a force that is linear in positions. All engines have it at once, as springs
   /// (linear_springs.h) or by its stencils.
@@ -82,7 +84,8 @@ struct Force {
   double (*stiffness)(const Preset&, const Stencil&) = nullptr;
   /// The constant that it is proportional to.
   std::string_view (*constant)(const Preset&) = nullptr;
-  /// Upper bound of the eigenvalues of its Hessian K over all positions of all particles, N/m.
+  /// Upper bound of the eigenvalues of its Hessian K over all positions of all particles, N/m; for a force without a
+  /// potential φ(|d|) over those in which no thread is longer than most_stretch().
   double (*largest_eigenvalue)(const Preset&) = nullptr;
   /// Largest trace of K's block of one particle along a line, N/m: the sum of w²·stiffness over its stencils.
   double (*at_particle)(const Preset&) = nullptr;
@@ -91,9 +94,9 @@ struct Force {
 };
 
 namespace force {
-extern const Force stretch, bend, rigidity, damping, gravity, wind, air;
+extern const Force stretch, bend, rigidity, curl, damping, gravity, wind, air;
 /// In the order of the report, and what it does not have beside what is like it.
-inline constexpr std::array all{&stretch, &bend, &rigidity, &damping, &gravity, &wind, &air};
+inline constexpr std::array all{&stretch, &bend, &rigidity, &curl, &damping, &gravity, &wind, &air};
 }  // namespace force
 
 /// Where a force stands in the table.
@@ -158,11 +161,11 @@ inline void act_along_d(decltype(Force::potential) potential, const Preset& pres
   for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) action.F[n] = -stencil.at[n].weight * at.factor * d;
 }
 
-/// A bound of all forces with a potential together: the sum of theirs.
+/// A bound of all forces that have one together: the sum of theirs.
 inline double sum_of(double (*Force::*bound)(const Preset&), const Preset& preset) {
   double sum = 0;
   for (const Force* force : force::all)
-    if (force->potential != nullptr && force->on(preset)) sum += (force->*bound)(preset);
+    if (force->*bound != nullptr && force->on(preset)) sum += (force->*bound)(preset);
   return sum;
 }
 
@@ -214,6 +217,13 @@ inline bool tears_springs(const Preset& preset) {
 std::span<const Stencil> stretch_stencils();
 /// The two triangles of a quad, split one way where i + j is even and the other way where it is odd (figure 2.7).
 std::span<const Stencil> triangle_stencils();
+
+/// By what factor threads may be longer than at rest where bounds of F_curl hold: twice, or twice what they start with.
+double most_stretch(const Preset& preset);
+/// The largest energy of F_curl at a particle, J, beside that at rest, in threads `stretch` times as long.
+double most_curl_energy(const Preset& preset, double stretch);
+/// How far below 0 the energies of a site's F_B and F_curl may be together, J, where those bounds hold.
+double curl_below_zero(const Preset& preset);
 
 /// The most that air resists a corner of a triangle with in a step of dt, N s/m (air.cpp).
 double most_air_damping(const Preset& preset, double dt);

@@ -90,8 +90,9 @@ struct Preset {
   double k_weft = left_out;   ///< of springs along the rows
   double k_shear = left_out;  ///< of diagonals
   double k_b = 5;
-  double B = 0;      ///< N·m
-  double twist = 1;  ///< 0 to 1
+  double B = 0;                           ///< N·m
+  double twist = 1;                       ///< 0 to 1
+  double kappa_warp = 0, kappa_weft = 0;  ///< curvature at rest down the columns and along the rows, 1/m
   double k_d = 0.002;
   double k = 50;  ///< a mass on a spring only
   double g = 9.82;

@@ -8,6 +8,7 @@
 
 #include "core/forces/force.h"
 #include "core/model/notation.h"
+#include "core/theory/advice.h"
 #include "core/verify/rest.h"
 #include "core/verify/trial.h"
 
@@ -122,6 +123,22 @@ void end_load(Trial& trial) {
   trial.converges(2, {error_of(0.66996, coarse.x), error_of(0.66996, fine.x)}, "drop");
 }
 
+void rest_curvature(Trial& trial) {
+  // Three columns, the middle one with a neighbor on both sides; its slowest motion is damped critically.
+  const double kappa = 3;
+  const auto rise = [&](double h) {
+    const int edges = int(std::lround(1 / h));
+    Preset preset = strip(edges, 3);
+    preset.integrator = "verlet", preset.x_0 = {0, 0, 0}, preset.tilt_deg = 0, preset.k_s = 1e4;
+    preset.k_d = 0.05 * std::sqrt(edges / 32.0), preset.B = 0.02, preset.kappa_warp = kappa;
+    preset.dt = stable_dt(preset, "verlet");
+    Simulation simulation = trial.start(preset);
+    trial.advance(simulation, std::llround(20 / preset.dt));
+    return -drop_of(preset, simulation.position(edges - 1, 1), simulation.position(edges, 1));
+  };
+  trial.refine(2, (1 - std::cos(kappa)) / kappa, {1.0 / 8, 1.0 / 16, 1.0 / 32}, rise);
+}
+
 void isotropy(Trial& trial) {
   Preset preset = quiet_cloth(40, 40, "verlet");
   preset.B = 1e-4;
@@ -205,6 +222,12 @@ std::span<const Case> bending_cases() {
            "A weightless strip carries 4 B/L² at its end: how far the end goes down, and back.",
            "drop 0.66996 L, shortening 0.32894 L", "K. Mattiasson, Int. J. Numer. Methods Eng. 17, 145 (1981)", "m",
            1e-3, 0.3, end_load},
+      Case{
+          "rest_curvature", "A strip curls to its rest curvature",
+          "A clamped strip of 1 m without weight and with $\\kappa_{warp}$ = 3/m moves until it rests: how far its end "
+          "is above the clamp.",
+          "$(1 - \\cos\\kappa_0 l)/\\kappa_0$, a circle's arc", "A. Garg et al., Cubic Shells, SCA 2007", "m", 5e-3,
+          0.15, rest_curvature},
       Case{"isotropy", "Bending in every direction",
            "A cloth with twist = 1 is laid onto a cylinder at 0, 15, 30 and 45° to its threads: its energy per area is "
            "the same.",

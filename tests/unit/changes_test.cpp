@@ -34,7 +34,7 @@ constexpr int members() {
 Preset scene(Kind kind, const std::string& integrator = "verlet") {
   Preset preset = kind == Kind::cloth ? test::cloth(7, 6, integrator) : test::one_weight(integrator);
   preset.rows = 7, preset.columns = 6, preset.dt = 5e-4, preset.k_d = 0.003;
-  preset.B = 1e-5, preset.twist = 0.5;
+  preset.B = 1e-5, preset.twist = 0.5, preset.kappa_warp = 5, preset.kappa_weft = -3;
   preset.k_warp = 45, preset.k_shear = 40;
   preset.air_density = 1.2, preset.C_T = 0.1, preset.u = {0.5, 0.2, 1};
   preset.v_0 = {0.1, 0.2, 0.3}, preset.initial_stretch = 1.02, preset.pins.mode = Pins::Mode::top_corners;
@@ -98,7 +98,8 @@ std::map<std::string, Said> expected() {
   add("tilt_deg initial_stretch", start, unused);
   add("offset", unused, start);
   add("m k_d g", force, force);
-  add("L k_s k_warp k_weft k_shear k_b B twist W air_density u C_N C_T gust gust_period", force, unused);
+  add("L k_s k_warp k_weft k_shear k_b B twist kappa_warp kappa_weft W air_density u C_N C_T gust gust_period", force,
+      unused);
   add("k", unused, force);
   add("F_max F_release", tearing, unused);
   add("bodies", bodies, bodies);

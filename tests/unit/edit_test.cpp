@@ -36,8 +36,8 @@ std::vector<Kind> kinds() {
   std::vector<Kind> all;
   for (const char* setting :
        {"k_s=80", "k_b=0", "k_d=0.006", "m=0.0005", "g=-3", "W=[0,0.002,0.004]", "L=0.033", "dt=0.0003",
-        "pins=left_column", "pins=none", "B=0.0005", "k_warp=25", "k_shear=8", "air_density=1.2", "C_N=3", "u=[1,0,4]",
-        R"(pin_motions=[{"pins": "top_row", "path": [[0, 0, 0, 0], [10, -9, 3, 6]]}])"})
+        "pins=left_column", "pins=none", "B=0.0005", "kappa_warp=9", "k_warp=25", "k_shear=8", "air_density=1.2",
+        "C_N=3", "u=[1,0,4]", R"(pin_motions=[{"pins": "top_row", "path": [[0, 0, 0, 0], [10, -9, 3, 6]]}])"})
     all.push_back({setting, [setting](Simulation& s) { return set(s, setting); }});
   all.push_back({"constants and pins together", [](Simulation& s) {
                    return edit::Change{with_settings(s.preset(), {"k_s=20", "g=4", "pins=none", "dt=0.0007"})};
@@ -63,7 +63,7 @@ Preset scene(const Scheme& method, Precision precision, EngineKind engine) {
   preset.W = {0.002, 0, 0.001}, preset.v_0 = {0.1, 0, 0.3};
   preset.iterations = 25, preset.tolerance = 1e-9;
   preset.pins.motions = {{.mode = Pins::Mode::list, .list = {{0, 0}}, .path = {{0, {0, 0, 0}}, {10, {3, 0, 5}}}}};
-  if (engine == EngineKind::cpu) preset.air_density = 0.6, preset.u = {0, 0, 1};
+  if (engine == EngineKind::cpu) preset.air_density = 0.6, preset.u = {0, 0, 1}, preset.B = 2e-4, preset.kappa_weft = 5;
   return preset;
 }
 

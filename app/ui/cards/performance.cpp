@@ -48,6 +48,7 @@ constexpr Feature features[] = {
      [](const Ui&) { return true; }, Spent::frame, Part::simulate},
     {"bending", "Springs to every second particle: on if k_b > 0.", nullptr, Spent::step},
     {"rigidity", "Constants of springs that B and twist change: on if B > 0.", nullptr, Spent::step},
+    {"curl", "On if κ_warp or κ_weft is not 0, and B > 0.", nullptr, Spent::step},
     {"damping", "On if k_d > 0.", nullptr, Spent::step},
     {"wind", "On if W is not 0.", nullptr, Spent::step},
     {"air", "Drag and lift: on if ρ_air > 0.", nullptr, Spent::step},

@@ -299,6 +299,7 @@ bool applies(const PresetRow& row, const Preset& preset) {
   if (row.key == "iterations") return iterates(scheme(preset.integrator));
   if (row.key == "gust_period" && !gusts(preset)) return false;
   if ((row.key == "u" || row.key == "C_N" || row.key == "C_T") && preset.air_density == 0) return false;
+  if ((row.key == "kappa_warp" || row.key == "kappa_weft") && preset.B == 0) return false;
   return !row.only_one_kind || row.only == preset.kind;
 }
 

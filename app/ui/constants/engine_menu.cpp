@@ -82,8 +82,8 @@ std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClIn
   if (!runs_on_opencl(method))
     return std::string(method.title) + " runs only on the CPU engine. Choose another method first.";
   if (const Force* force = missing_on_opencl(preset))
-    return std::string(force->symbol) + " with " + std::string(method.title) +
-           " runs only on the CPU engine. Choose an explicit method first.";
+    return words_of_missing(*force, method.title) + " runs only on the CPU engine." +
+           (force == &force::air ? " Choose an explicit method first." : "");
   const OpenClDevice* device = device_of(preset, devices);
   if (device != nullptr && mode.precision == Precision::double_ && !device->fp64)
     return device->name + " does not support double precision.";

@@ -47,11 +47,15 @@ template <class R, unsigned Present>
 void Band<R, Present>::allocate(bool old_rows, bool old_velocities) {
   if (old_rows && old_rows_.empty()) old_rows_.resize(block_, cloth_.stride);
   if (old_velocities && old_velocities_.empty()) old_velocities_.resize(block_, cloth_.stride);
+  if (!force::curl.on(cloth_.preset)) return;
+  curl_.allocate(cloth_.preset);
+  if (curled_.empty()) curled_.resize(2, cloth_.stride);
 }
 
 template <class R, unsigned Present>
 std::size_t Band<R, Present>::bytes() const {
   std::size_t total = ring_.bytes() + old_rows_.bytes() + old_velocities_.bytes();
+  total += curled_.bytes() + curl_.bytes();
   for (const Halo* halo : {&head_, &tail_}) total += halo->x.bytes() + halo->v.bytes();
   return total;
 }
@@ -93,6 +97,7 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
     t.weight = cloth_.preset.m * cloth_.preset.g;
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
   if ((features_ & air) != 0) take_air(t, s.per_velocity);
+  curl_.begin(cloth_.preset, !air_alone);
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
   t.dt_v = cloth_.dt / cloth_.velocity_scale();
   t.max_displacement = max_displacement_.data();
@@ -142,11 +147,25 @@ void Band<R, Present>::begin_forces(PairTask<R>& t, const Tears& tears) {
   for (int i = first; i < first + 2; ++i) std::fill_n(force_row(i, 0), ring_.pitch(), R(0));
   if (begin_ == 0) return;
   point(t, tears, first, 0, head_.x, head_.v);
-  forces_on_pair(t, Update::force);
+  forces_on_pair(t, tears, first, Update::force);
+}
+
+/// What F_curl does to the rows of a pair and to the two below, which the sweep of the pair begins.
+template <class R, unsigned Present>
+void Band<R, Present>::curl_pair(const PairTask<R>& t, const Tears& tears, int i) {
+  assert(!curled_.empty());
+  std::fill_n(curled_.row(0), 2 * curled_.pitch(), R(0));
+  curl_.add(tears, i, t.x, t.stride, {t.f[0], t.f[1], curled_.row(0), curled_.row(1)});
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::forces_on_pair(PairTask<R>& t, Update update) {
+void Band<R, Present>::pass_on_curl(const PairTask<R>& t) {
+  for (const int row : {0, 1})
+    for (std::ptrdiff_t n = 0; n < curled_.pitch(); ++n) t.f[2 + row][n] += curled_.row(row)[n];
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::forces_on_pair(PairTask<R>& t, const Tears& tears, int i, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
@@ -155,7 +174,9 @@ void Band<R, Present>::forces_on_pair(PairTask<R>& t, Update update) {
   }
   t.update = update;
   const auto& sweeps = cloth_.sweeps.sweep[features_];
+  if (curl_.acts()) curl_pair(t, tears, i);
   (update == Update::displacement ? sweeps.displacement : sweeps.other)(t);
+  if (curl_.acts()) pass_on_curl(t);
 }
 
 /// The force on the hand's particle, if it is in this row.
@@ -353,7 +374,7 @@ void Band<R, Present>::sweep_rows(int i, int count) {
   if (bodies || (last && assigns)) save_rows(i, count, bodies);
   for (int pair = i; pair < end; pair += 2) {
     point_at_pair(pass_.task, s, *pass_.tears, pair);
-    forces_on_pair(pass_.task, assigns ? Update::force : s.update);
+    forces_on_pair(pass_.task, *pass_.tears, pair, assigns ? Update::force : s.update);
     if (!assigns && in_tail(pair)) restore_pair(pass_.task, s, pair);
   }
   if (assigns) {
@@ -398,7 +419,7 @@ void Band<R, Present>::accelerations(const ResolvedSweep& s, const Tears& tears,
   begin_forces(t, tears);
   for (int i = begin_; i < end_; i += 2) {
     point_at_pair(t, s, tears, i);
-    forces_on_pair(t, Update::force);
+    forces_on_pair(t, tears, i, Update::force);
     for (int row = i; row < std::min(i + 2, end_); ++row) {
       fix_row(row);
       for (int c = 0; c < 3; ++c) {

@@ -12,6 +12,7 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
+#include "core/engines/cpu/curl_rows.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/parts.h"
 #include "core/engines/cpu/row_update.h"
@@ -50,7 +51,7 @@ struct ResolvedSweep {
   double k_d = 0;           ///< divided by dt where the velocity vector holds displacements
   double per_velocity = 1;  ///< what that vector is multiplied by to be a velocity: 1, or 1/dt
   std::vector<ResolvedAssignment> assignments;
-  bool external = false, projects = false;  ///< as in Sweep
+  bool external = false, projects = false;  ///< as in Sweep; F_curl is among what is external
   enum class Air { blows, none, alone };    ///< whether F has that of the air, or nothing else
   Air air = Air::blows;
   double solve_dt = 0;                     ///< not 0: an implicit stage over that time is solved first
@@ -169,7 +170,9 @@ class Band {
   bool in_tail(int i) const { return end_ < cloth_.lattice.rows && i >= end_ - 2; }
   void copy_rows(const ResolvedSweep& sweep, int first, int count, Halo& halo, int at);
   void begin_forces(PairTask<R>& task, const Tears& tears);
-  void forces_on_pair(PairTask<R>& task, Update update);
+  void forces_on_pair(PairTask<R>& task, const Tears& tears, int i, Update update);
+  void curl_pair(const PairTask<R>& task, const Tears& tears, int i);
+  void pass_on_curl(const PairTask<R>& task);
   void read_hand(int i);
   void fix_row(int i);
   void begin_sums(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments);
@@ -206,7 +209,9 @@ class Band {
   Field ring_;             ///< force rows of the present block and of the next, which its last pair begins
   Field old_rows_;         ///< positions of a block before it is overwritten
   Field old_velocities_;   ///< and velocities, for contacts within the step
-  Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
+  CurlPass<R> curl_;
+  Field curled_;      ///< what that does to the two rows below a pair
+  Halo head_, tail_;  ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
   alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> max_displacement_{};  ///< by lane

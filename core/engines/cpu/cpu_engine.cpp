@@ -538,6 +538,7 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
   const auto swept = [&](unsigned feature) { return (cloth_.features & feature) != 0; };
   return {{"bending", cloth && swept(bending)},
           {"rigidity", cloth && swept(linear)},
+          {"curl", force::curl.on(p)},
           {"damping", swept(damping)},
           {"wind", cloth && swept(wind)},
           {"air", cloth && swept(air)},

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/engines/cpu/cpu_engine.h"
+#include "core/forces/force.h"
 
 namespace tyglab::cpu {
 
@@ -110,14 +111,14 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   return true;
 }
 
-/// Asks whether to go on, and lets the wind blow on the present positions. Returns false, to all threads, where the
-/// step was stopped.
+/// Asks whether to go on, and finds the forces at the present positions of which the descent has no energy. Returns
+/// false, to all threads, where the step was stopped.
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears) {
   assert(pass >= 0 && pass < most_passes());
   const int begin = band_begin(number), end = band_begin(number + 1);
-  const bool blows = (cloth_.features & (wind | air)) != 0;
-  if (blows) {
+  const bool others = (cloth_.features & (wind | air)) != 0 || force::curl.on(cloth_.preset);
+  if (others) {
     descent_.write_positions(cloth_.vector(sweep.position), begin, end);
     team_->barrier();
   }
@@ -128,11 +129,11 @@ bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep
     if (late_) solver_.note_late();
     ResolvedSweep look;
     look.position = sweep.position, look.velocity = sweep.velocity, look.external = true;
-    if (blows) stage_accelerations(look, tears, acceleration_, false);
+    if (others) stage_accelerations(look, tears, acceleration_, false);
   }
   team_->barrier();
   if (abandoned_) return false;
-  if (blows) descent_.accelerate(cloth_.vector(sweep.velocity), acceleration_, begin, end);
+  if (others) descent_.accelerate(cloth_.vector(sweep.velocity), acceleration_, begin, end);
   return true;
 }
 

@@ -40,6 +40,21 @@ void add_wind(const Preset& preset, const Tears& tears, double scale, const Fiel
         if (tears.triangle_whole(i, j, which)) blow(preset, scale, x, i, j, which, forces);
 }
 
+/// Adds h²/m F_curl.
+void add_curl(const Preset& preset, const Tears& tears, double scale, const Field& x, Field& forces) {
+  const auto x_of = [&](int i, int j) { return at(x, i, j); };
+  for (const Stencil& stencil : force::curl.stencils(preset))
+    for (int i = 0; i < tears.lattice().rows; ++i)
+      for (int j = 0; j < tears.lattice().columns; ++j) {
+        if (!stencil.acts(tears, i, j)) continue;
+        ForceAction action;
+        force::curl.act(preset, stencil, points_of(stencil, i, j, x_of, x_of), action);
+        for (std::size_t n = 0; n < std::size_t(stencil.points); ++n)
+          for (int c = 0; c < 3; ++c)
+            forces.row(i + stencil.at[n].di, c)[j + stencil.at[n].dj] += scale * action.F[n][c];
+      }
+}
+
 template <class R>
 bool is_fixed(const StiffTask<R>& task, int i, int j) {
   return !task.fixed.empty() && task.fixed[std::size_t(i) * task.lattice.columns + j] != 0;
@@ -94,8 +109,12 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
                                         .out_of_time = task.out_of_time,
                                         .progress = task.progress,
                                         .crew = task.crew};
-  if (p.W != glm::dvec3(0))
-    inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
+  const bool curls = force::curl.on(p);
+  if (p.W != glm::dvec3(0) || curls)
+    inner.others = [&, curls](const Field& x, Field& forces) {
+      if (p.W != glm::dvec3(0)) add_wind(p, task.tears, scale, x, forces);
+      if (curls) add_curl(p, task.tears, scale, x, forces);
+    };
   const Balance balance = solver.solve(inner, counts);
   for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
     if (!is_fixed(task, i, j)) task.v[n] = R((solver.x().row(i, c)[j] - solver.c().row(i, c)[j]) / h);

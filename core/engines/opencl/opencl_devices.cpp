@@ -55,7 +55,12 @@ bool runs_on_opencl(const Scheme& method) {
 }
 
 const Force* missing_on_opencl(const Preset& preset) {
+  if (force::curl.on(preset)) return &force::curl;
   return force::air.on(preset) && is_implicit(scheme(preset.integrator)) ? &force::air : nullptr;
+}
+
+std::string words_of_missing(const Force& force, std::string_view method) {
+  return std::string(force.symbol) + (&force == &force::air ? " with " + std::string(method) : "");
 }
 
 }  // namespace tyglab

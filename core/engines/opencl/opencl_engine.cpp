@@ -21,9 +21,10 @@ constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step rep
 
 void refuse_missing(const Preset& preset) {
   if (const Force* force = missing_on_opencl(preset))
-    throw EngineError(
-        "The OpenCL engine does not compute " + std::string(force->symbol) + " with " + preset.integrator +
-        "; use the CPU engine (--engine cpu), an explicit method such as verlet, or " + "air_density = 0");
+    throw EngineError("The OpenCL engine does not compute " + words_of_missing(*force, preset.integrator) +
+                      "; use the CPU engine (--engine cpu)" +
+                      (force == &force::air ? ", an explicit method such as verlet, or air_density = 0"
+                                            : " or kappa_warp = kappa_weft = 0"));
 }
 
 template <class R>

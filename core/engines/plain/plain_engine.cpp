@@ -266,7 +266,8 @@ void PlainEngine::go_on_from(const HeldMotion& then) {
 std::vector<StepFeature> PlainEngine::features() const {
   const Preset& p = cloth_.preset;
   std::vector<StepFeature> all;
-  for (const Force* force : {&force::bend, &force::damping, &force::wind}) all.push_back({force->name, force->on(p)});
+  for (const Force* force : {&force::bend, &force::curl, &force::damping, &force::wind})
+    all.push_back({force->name, force->on(p)});
   all.push_back({"bodies", !p.bodies.empty()});
   all.push_back({"tearing", tears_springs(p)});
   all.push_back({"pins", !pinned_.empty()});
