@@ -19,7 +19,7 @@ struct VerifiedCase {
   bool ok = false;
   std::string at;  ///< what is wrong, or which comparison is told
   int rows = 0, columns = 0;
-  std::vector<glm::vec3> x;  ///< the cloth of its last motion, row by row, m
+  std::vector<glm::vec3> x = {};  ///< the cloth of its last motion, row by row, m
 };
 
 /// The results of a run, in the order of the gallery.

@@ -14,6 +14,7 @@
 #include "core/integrators/scheme.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
+#include "core/model/fabric.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 
@@ -300,6 +301,30 @@ class Reader {
     unknown(node.line, path, name, known);
   }
 
+  /// The section of quantities of a fabric, which are turned into constants of the forces.
+  void fabric(const JsonNode& node, const std::string& path, Preset& p) const {
+    if (node.type != Type::object) wrong_type(node, path, "an object {…}");
+    std::vector<std::string_view> known;
+    for (const FabricQuantity& quantity : fabric_quantities()) known.push_back(quantity.key);
+    for (const auto& [key, child] : node.members)
+      if (std::find(known.begin(), known.end(), key) == known.end()) unknown(child.line, path + "." + key, key, known);
+    for (const FabricQuantity& quantity : fabric_quantities()) {
+      const JsonNode* child = node.find(quantity.key);
+      if (child == nullptr) continue;
+      const std::string at = path + "." + std::string(quantity.key);
+      double number = 0;
+      value(*child, at, number);
+      if (!(number >= quantity.min && number <= quantity.max))
+        fail(child->line, at,
+             shortest_number(number) + " is not allowed; allowed: " + shortest_number(quantity.min) + " to " +
+                 shortest_number(quantity.max) + " " + std::string(quantity.unit));
+      quantity.set(p, number);
+      if (const double kept = quantity.of(p); !(std::abs(kept - number) <= 1e-9 * std::abs(number)))
+        fail(child->line, at,
+             "must be at least fabric.shear, " + shortest_number(kept) + " N/m, since diagonals resist a stretch too");
+    }
+  }
+
   /// A key of the file's top level that is not a section.
   bool top_key(const std::string& name, const JsonNode& node, Preset& p) const {
     if (name == "kind") return choice(node, name, kind_names, p.kind), true;
@@ -469,10 +494,10 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
   Preset preset;
   int pins_line = 0, motions_line = 0, texture_line = 0;
   for (const auto& [name, node] : root.members) {
-    if (name == "tyglab_preset" || reader.top_key(name, node, preset)) continue;
+    if (name == "tyglab_preset" || name == "fabric" || reader.top_key(name, node, preset)) continue;
     if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
       std::vector<std::string_view> known(section_names.begin(), section_names.end());
-      known.insert(known.end(), {"tyglab_preset", "kind", "name", "description"});
+      known.insert(known.end(), {"tyglab_preset", "kind", "name", "description", "fabric"});
       reader.unknown(node.line, name, name, known);
     }
     if (node.type != Type::object) reader.wrong_type(node, name, "an object {…}");
@@ -482,6 +507,11 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
       if (key == "pin_motions") motions_line = child.line;
       if (key == "texture") texture_line = child.line;
     }
+  }
+  // Whatever section comes first, in units that depend on none.
+  if (const JsonNode* fabric = root.find("fabric")) {
+    reader.fabric(*fabric, "fabric", preset);
+    if (const auto problem = check_preset(preset); !problem.empty()) reader.fail(fabric->line, "fabric", problem);
   }
   if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
     reader.fail(pins_line, "cloth.pins", problem);

@@ -23,7 +23,52 @@ constexpr std::array<Fabric, 6> known_fabrics{{
      "ARCSim's materials, where it is an estimate."},
 }};
 
+double shear_of(const Preset& p) {
+  return p.k_shear == left_out ? p.k_s : p.k_shear;
+}
+double warp_of(const Preset& p) {
+  return (p.k_warp == left_out ? p.k_s : p.k_warp) + shear_of(p);
+}
+double weft_of(const Preset& p) {
+  return (p.k_weft == left_out ? p.k_s : p.k_weft) + shear_of(p);
+}
+double area_of(const Preset& p) {
+  return p.L * p.L;
+}
+
+constexpr double milli = 1e-3, micro = 1e-6;
+
+constexpr std::array<FabricQuantity, 6> quantities{{
+    {"spacing", "L", "Distance of particles", "Partikelavstånd", "mm", "The mass per area stays.", 0.1, 1e4,
+     [](const Preset& p) { return p.L / milli; },
+     [](Preset& p, double value) {
+       const double mass = p.m / area_of(p);
+       p.L = value * milli, p.m = mass * area_of(p);
+     }},
+    {"mass", "ρ_A", "Mass per area", "Ytvikt", "g/m²", "m = ρ_A L².", 0.1, 1e5,
+     [](const Preset& p) { return p.m / area_of(p) / milli; },
+     [](Preset& p, double value) { p.m = value * milli * area_of(p); }},
+    {"B", "B", "Bending rigidity", "Böjstyvhet", "µN·m", "Moment per width and curvature.", 0, 1e9,
+     [](const Preset& p) { return p.B / micro; }, [](Preset& p, double value) { p.B = value * micro; }},
+    {"shear", "G", "Resistance to shear", "Skjuvstyvhet", "N/m", "k_shear = G; warp and weft stay.", 0, 1e8, shear_of,
+     [](Preset& p, double value) {
+       const double warp = warp_of(p), weft = weft_of(p);
+       p.k_shear = value;
+       p.k_warp = std::max(warp - value, 0.0), p.k_weft = std::max(weft - value, 0.0);
+     }},
+    {"warp", "C_warp", "Resistance to a stretch of the warp", "Dragstyvhet varp", "N/m",
+     "At constant width: k_warp = C_warp - k_shear, so at least the shear.", 0, 1e8, warp_of,
+     [](Preset& p, double value) { p.k_warp = std::max(value - shear_of(p), 0.0); }},
+    {"weft", "C_weft", "Resistance to a stretch of the weft", "Dragstyvhet inslag", "N/m",
+     "At constant width: k_weft = C_weft - k_shear, so at least the shear.", 0, 1e8, weft_of,
+     [](Preset& p, double value) { p.k_weft = std::max(value - shear_of(p), 0.0); }},
+}};
+
 }  // namespace
+
+std::span<const FabricQuantity> fabric_quantities() {
+  return quantities;
+}
 
 std::span<const Fabric> fabrics() {
   return known_fabrics;

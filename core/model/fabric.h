@@ -21,6 +21,17 @@ struct Fabric {
 /// In the order of their stiffness.
 std::span<const Fabric> fabrics();
 
+/// A property of a fabric in the units in which fabrics are sold and measured. A finer cloth keeps it. The section
+/// `fabric` of a preset's file sets it under its key.
+struct FabricQuantity {
+  std::string_view key, symbol, name, namn, unit, help;
+  double min, max;
+  double (*of)(const Preset&);
+  void (*set)(Preset&, double);
+};
+/// The spacing first, since masses depend on it, and shear before the threads, which share it.
+std::span<const FabricQuantity> fabric_quantities();
+
 /// (B/ρg)^(1/3), m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B
 /// is, infinity without weight.
 double drape_length(double B, double mass, double g);

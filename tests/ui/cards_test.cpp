@@ -522,11 +522,13 @@ TEST_CASE("what is said of a run of the gallery") {
 
 TEST_CASE("the findings of the gallery go through bytes as they are") {
   VerifyFindings findings;
-  findings.cases = {{"slide", 1, 2, 0.5, 2.0, false, "rk4"}, {"wind", 3, 3, 0, {}, true, ""}};
+  findings.cases = {{"slide", 1, 2, 0.5, 2.0, false, "rk4", 1, 2, {{0, 0, 0}, {1, 2, 3}}},
+                    {"wind", 3, 3, 0, {}, true, ""}};
   findings.problem = "none", findings.done = true;
   const VerifyFindings back = from_bytes<VerifyFindings>(bytes_of(findings));
   REQUIRE(back.cases.size() == 2);
   CHECK(back.cases[0].name == "slide");
+  CHECK(back.cases[0].x == findings.cases[0].x);
   CHECK(back.cases[0].order == 2.0);
   CHECK(back.cases[0].at == "rk4");
   CHECK_FALSE(back.cases[1].order.has_value());

@@ -6,6 +6,7 @@
 #include "app/base/files.h"
 #include "app/base/glfw_keys.h"
 #include "app/session/requests.h"
+#include "app/ui/constants/constants_panel.h"
 #include "core/io/preset_io.h"
 #include "core/model/fabric.h"
 #include "tests/ui/null_ui.h"
@@ -141,6 +142,19 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   REQUIRE(window.session.labs.run.has_value());
   CHECK(window.session.labs.run->lab.label == "01_hooke");
   CHECK(window.settings.recent.size() == 1);  // a lab's cloth is no work of the user's
+}
+
+TEST_CASE("a fabric is changed in its own units, with one undo each") {
+  test::NullUi window({.with = [](Preset& preset) { preset = with_fabric(preset, fabrics()[3]); }});
+  window.pause();
+  CHECK_FALSE(window.sees("fabric.mass.slider"));
+  show_constant(window.ui, "k_shear");
+  window.frames(10);
+  window.click("fabric_units");
+  window.type_value("fabric.mass", "250");
+  CHECK(window.preset().m == doctest::Approx(0.25 * window.preset().L * window.preset().L));
+  window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  window.until([&] { return is_fabric(window.preset(), fabrics()[3]); }, "undo to take the mass back");
 }
 
 TEST_CASE("the start page shows the fabrics beside each other, after the other scenes") {

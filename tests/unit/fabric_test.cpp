@@ -74,4 +74,46 @@ TEST_CASE("drape lengths are those of physics: jeans 27 mm, none without rigidit
   CHECK(drape_length(1e-4, 0.3, 0) == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("each quantity of a fabric is read back as it was set, and leaves the others") {
+  Preset preset = with_fabric(Preset(), fabrics()[3]);
+  for (const FabricQuantity& quantity : fabric_quantities()) {
+    CAPTURE(std::string(quantity.key));
+    Preset other = preset;
+    const double wanted = 1.25 * quantity.of(preset);
+    quantity.set(other, wanted);
+    CHECK(quantity.of(other) == doctest::Approx(wanted).epsilon(1e-12));
+    for (const FabricQuantity& beside : fabric_quantities())
+      if (beside.key != quantity.key) CHECK(beside.of(other) == doctest::Approx(beside.of(preset)).epsilon(1e-12));
+    CHECK(check_preset(other) == "");
+  }
+}
+
+TEST_CASE("a file may name a fabric's quantities, in whatever order its sections stand") {
+  const Preset preset = parse_preset(
+      R"({"tyglab_preset": 1, "fabric": {"weft": 1014, "mass": 324, "B": 64, "shear": 53, "warp": 205, "spacing": 12.5},
+          "forces": {"k_b": 0}, "cloth": {"L": 0.5}})",
+      "file");
+  CHECK(preset.L == doctest::Approx(0.0125));
+  CHECK(preset.m == doctest::Approx(0.324 * 0.0125 * 0.0125));
+  CHECK(preset.k_warp == doctest::Approx(152));
+  CHECK(preset.k_weft == doctest::Approx(961));
+  CHECK(preset.k_shear == doctest::Approx(53));
+  CHECK(preset.B == doctest::Approx(64e-6));
+  CHECK(parse_preset(preset_to_json(preset), "again") == preset);
+  for (const auto& [fabric, why] : std::vector<std::pair<std::string, std::string>>{
+           {R"({"shear": 50, "warp": 20})", "fabric.warp: must be at least fabric.shear"},
+           {R"({"mass": -1})", "fabric.mass: -1 is not allowed"},
+           {R"({"mas": 1})", "fabric.mas: unknown key; did you mean mass"},
+           {R"({"B": "stiff"})", "fabric.B: must be a number"}}) {
+    CAPTURE(fabric);
+    std::string told;
+    try {
+      parse_preset("{\"tyglab_preset\": 1, \"fabric\": " + fabric + "}", "file");
+    } catch (const PresetError& error) {
+      told = error.what();
+    }
+    CHECK_MESSAGE(told.find(why) != std::string::npos, told);
+  }
+}
+
 }  // namespace tyglab::fabric_test

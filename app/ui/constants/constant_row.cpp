@@ -7,6 +7,7 @@
 #include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/io/preset_io.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -27,7 +28,7 @@ struct Line {
   int components = 1;
   double value[3]{}, saved[3]{none, none, none}, standard[3]{};
   std::function<void(const double* value, unsigned gesture)> set;
-  std::function<Difference(double value)> differing;  ///< of a copy; of one component alone
+  std::function<Difference(double value)> differing;  ///< of a copy, where there can be one; of one component alone
 };
 
 template <class T>
@@ -183,7 +184,7 @@ void row_tooltip(Ui& ui, const Line& line) {
 
 /// "Add a copy with k_s = …": half, double, or what is typed.
 void copy_items(Ui& ui, const Line& line) {
-  if (line.components != 1 || line.effect == Effect::rebuild || line.effect == Effect::start ||
+  if (!line.differing || line.components != 1 || line.effect == Effect::rebuild || line.effect == Effect::start ||
       line.effect == Effect::view)
     return;
   const auto add = [&](double value) { ui.session.request(request::AddCopy{{line.differing(rounded(value, 6))}}); };
@@ -343,6 +344,36 @@ void constant_row(Ui& ui, const PresetRow& row) {
   };
   line.differing = [&row](double value) { return Difference(row, value); };
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
+  draw_line(ui, line);
+  ImGui::PopID();
+}
+
+void fabric_quantity_row(Ui& ui, const FabricQuantity& quantity) {
+  Line line{.symbol = quantity.symbol,
+            .quantity = quantity.name,
+            .storhet = quantity.namn,
+            .unit = quantity.unit,
+            .equation = {},
+            .help = quantity.help,
+            .key = "fabric." + std::string(quantity.key),
+            .min = quantity.min,
+            .max = quantity.max,
+            .scale = Scale::logarithmic,
+            .effect = Effect::force,
+            .zero_is_off = false,
+            .set = {},
+            .differing = {}};
+  line.value[0] = quantity.of(ui.session.requested_preset());
+  line.saved[0] = quantity.of(ui.session.document.saved);
+  line.standard[0] = quantity.of(Preset{});
+  line.set = [&ui, &quantity](const double* value, unsigned gesture) {
+    Preset next = ui.session.requested_preset();
+    quantity.set(next, value[0]);
+    if (const std::string problem = check_preset(next); !problem.empty())
+      return ui.refuse_number(sentence(problem) + ".");
+    ui.session.propose(std::move(next), gesture);
+  };
+  ImGui::PushID(line.key.c_str());
   draw_line(ui, line);
   ImGui::PopID();
 }

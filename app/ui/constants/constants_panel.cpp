@@ -218,7 +218,16 @@ void fabric_row(Ui& ui) {
   const double mass = now.m / (now.L * now.L), drape = drape_length(now.B, mass, now.g);
   std::string words = quantity(1e3 * mass, "g/m²", 3) + " · B " + quantity(1e6 * now.B, "µN·m", 3);
   if (std::isfinite(drape) && drape > 0) words += " · drape " + quantity(1e3 * drape, "mm", 2);
+  bool* shown = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("fabric_units"), false);
   labeled_row(ui, "units", [&](float width) {
+    const float side = ui.theme.px(30);
+    const ImVec2 lo = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({lo.x + width - side, lo.y});
+    if (quiet_button(ui, "fabric_units", *shown ? icon::close : icon::down, *shown ? "hide" : "edit",
+                     *shown ? "Hide the fabric's quantities" : "Change the fabric in these units"))
+      *shown = !*shown;
+    ImGui::SetCursorScreenPos(lo);
+    width -= side;
     draw_on_baseline(
         *ImGui::GetWindowDrawList(), *ui.fonts.small,
         {ImGui::GetCursorScreenPos().x, baseline_at(ui.fonts, ImGui::GetCursorScreenPos().y + ui.theme.px(15))},
@@ -229,6 +238,8 @@ void fabric_row(Ui& ui) {
         "Mass per area m/L², bending rigidity, and the drape length (B/ρg)^(1/3) over which the cloth bends by its own "
         "weight. A spacing L well below it shows folds as they are; a finer cloth keeps all three.");
   });
+  if (!*shown) return;
+  for (const FabricQuantity& quantity : fabric_quantities()) fabric_quantity_row(ui, quantity);
 }
 
 /// How long a step may take. A lab's result must not depend on that.

@@ -12,6 +12,7 @@
 #include "app/ui/kit/overlay_layout.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/state/ui.h"
+#include "core/model/fabric.h"
 #include "core/model/notation.h"
 #include "core/model/preset.h"
 
@@ -43,6 +44,8 @@ bool applies(const PresetRow& row, const Preset& preset);
 
 /// Draws the row of a constant of the preset; changes become requests. Rows without a slider (text) are not for here.
 void constant_row(Ui& ui, const PresetRow& row);
+/// The same for a quantity of the cloth as a fabric.
+void fabric_quantity_row(Ui& ui, const FabricQuantity& quantity);
 /// The same for body `index`.
 void body_row(Ui& ui, const BodyRow& row, int index);
 
