@@ -52,7 +52,7 @@ TEST_CASE("no case holds where what is simulated is not what it says") {
   Conditions wrong;
   wrong.disturb = [](Preset& preset) {
     preset.g *= 1.05, preset.W *= 1.05;
-    preset.k_s *= 1.1, preset.k *= 1.1, preset.B *= 1.2;
+    preset.k_s *= 1.1, preset.k *= 1.1, preset.B *= 1.2, preset.kappa_warp *= 1.05;
     preset.k_d = 1.2 * preset.k_d + 1e-4;
     for (Body& body : preset.bodies) {
       body.friction = 1.05 * body.friction + 0.02, body.restitution *= 0.95;
