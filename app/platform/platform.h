@@ -90,8 +90,8 @@ class HeadlessContext {
   HeadlessContext& operator=(const HeadlessContext&) = delete;
 
  private:
-  void* display_ = nullptr;
-  void* context_ = nullptr;
+  [[maybe_unused]] void* display_ = nullptr;  // not on every platform
+  [[maybe_unused]] void* context_ = nullptr;
   std::optional<GlContextInUse> in_use_;
 };
 

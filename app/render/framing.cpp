@@ -6,6 +6,7 @@
 #include <glm/vector_relational.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/render/camera.h"
@@ -144,6 +145,19 @@ Bounds way_bounds(const Preset& p) {
   return way;
 }
 
+/// Where free cloth passes that a body carries round as it spins about a vertical axis.
+void add_carried_corners(std::vector<glm::vec3>& points, const Preset& p, const Body& body) {
+  constexpr int sides = 12;
+  constexpr double draped = 0.9;  // of the farthest corner's distance while it lay flat
+  double reach = 0;
+  for (const glm::vec3& corner : start_points(p))
+    reach = std::max(reach, std::hypot(corner.x - body.c.x, corner.z - body.c.z));
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    points.emplace_back(body.c + draped * reach * glm::dvec3(std::cos(angle), 0, std::sin(angle)));
+  }
+}
+
 /// Corners of what is seen once the start is over: where the cloth will be, roughly, and the spheres.
 std::vector<glm::vec3> lasting_points(const Preset& p) {
   std::vector<glm::vec3> points;
@@ -154,6 +168,7 @@ std::vector<glm::vec3> lasting_points(const Preset& p) {
       // A draped cloth stands off from its body.
       const glm::vec3 more = 0.05f * (box->hi - box->lo);
       spheres.add(box->lo - more), spheres.add(box->hi + more);
+      if (p.pins.mode == Pins::Mode::none && body.spin.y != 0) add_carried_corners(points, p, body);
     }
   if (!spheres.empty()) add_corners(points, spheres);
   if (hangs_from_top(p.pins)) {

@@ -108,17 +108,30 @@ def place(now, name, page_width):
     return x + width / 2, y + height / 2, height / 2
 
 
-def press(page, name, width=1280):
-    """Clicks a control, once it is there and stands where it stood a few frames before."""
+def settled(page, name, width):
+    """The middle of a control, once it is there and stands where it stood a few frames before."""
     now = wait_for(page, f"the control {name}", lambda now: name in now["controls"])
     while True:
-        then, end = now, time.monotonic() + 1.5  # a page at rest draws no more of them
+        # A page at rest draws no more of them; on a busy machine one takes seconds.
+        then, end = now, time.monotonic() + (1.5 if now["paused"] or now["asleep"] else 60)
         while (now := report(page))["frames"] < then["frames"] + 3 and time.monotonic() < end:
             time.sleep(0.1)
         if name in now["controls"] and now["controls"][name] == then["controls"].get(name):
-            break
-    x, y, _ = place(now, name, width)
-    page.click(x, y)
+            return place(now, name, width)[:2]
+
+
+def press(page, name, width=1280):
+    page.click(*settled(page, name, width))
+
+
+def tap(page, name, width):
+    """As `press`, with a finger."""
+    page.touch("touchStart", settled(page, name, width))
+    page.touch("touchEnd")
+
+
+# Of a phone and of a tablet, upright: a page's pixels.
+TOUCH_SIZES = {"phone": {"width": 390, "height": 844, "scale": 2}, "tablet": {"width": 820, "height": 1180}}
 
 
 CLOTH_OF_STUDIES = "#hanging&rows=64&columns=64"
@@ -532,6 +545,89 @@ class Tests:
         self.shot(page, "typing_by_touch")
         entered(95)
         page.call("Page.close")
+
+    def test_carried_by_a_turntable(self):
+        """A body that spins carries the cloth round, all of which stays in sight."""
+        for name, size in TOUCH_SIZES.items():
+            page = self.open("?report#turntable", **size, touch=True)
+            directions = set()
+
+            def carried(now):
+                corner = now["particles"][0]["x"]
+                directions.add((corner[0] > 0, corner[2] > 0))
+                left, top, width, height = now["viewport"]
+                for particle in now["particles"]:
+                    x, y = particle["at"]
+                    assert left <= x <= left + width and top <= y <= top + height, (now["t"], particle)
+                return len(directions) == 4
+
+            now = wait_for(page, "a corner goes round", carried)
+            assert now["bodies"][0]["shape"] == "cylinder" and not now["divergence"], now["bodies"]
+            self.shot(page, f"turntable_{name}")
+            page.call("Page.close")
+
+    def test_in_a_breeze(self):
+        """Air carries a flag; a finger drags the arrow of its velocity."""
+        for name, size in TOUCH_SIZES.items():
+            page = self.open("?report#breeze", **size, touch=True)
+            now = wait_for(page, "the flag's motion", lambda now: now["t"] > 1)
+            left, top, width, height = now["viewport"]
+            assert all(left <= x <= left + width and top <= y <= top + height for x, y in (p["at"] for p in now["particles"])), now
+            ratio, before = now["window"][0] / size["width"], now["preset"]["forces"]["u"]
+            x, y = (pixel / ratio for pixel in now["wind"]["tip"])
+            page.touch("touchStart", (x, y))
+            for step in range(1, 9):
+                page.touch("touchMove", (x - 8 * step, y))
+                time.sleep(0.05)
+            page.touch("touchEnd")
+            wait_for(page, "slower air", lambda now: now["preset"]["forces"]["u"][0] < before[0] - 0.2)
+            self.shot(page, f"breeze_{name}")
+            page.call("Page.close")
+
+    def test_fabric_by_touch(self):
+        for name, size in TOUCH_SIZES.items():
+            page = self.open("?report#fabric_jeans", **size, touch=True, script="localStorage.clear()")
+            for control in ["side.columns.1", "constants.Fabric", "constants.fabric"]:
+                tap(page, control, size["width"])
+                time.sleep(1)
+                self.shot(page, f"fabric_{name}")
+            jacket = next(key for key in report(page)["controls"] if key.endswith(".jacket"))
+            tap(page, jacket, size["width"])
+            wait_for(page, "the jacket's constants", lambda now: now["preset"]["forces"]["k_warp"] == 29)
+            self.shot(page, f"fabric_chosen_{name}")
+            page.call("Page.close")
+
+    def test_verification_by_touch(self):
+        """The gallery of exact answers runs beside the frames, in a worker or a thread, until it is stopped."""
+        for name, size in TOUCH_SIZES.items():
+            page = self.open("?report#breeze", **size, touch=True)  # which never comes to rest, so that frames go on
+            command(page, "exact answers")
+            tap(page, "plots.Run", size["width"])
+            before = wait_for(page, "the gallery runs", lambda now: "plots.Stop" in now["controls"])["frames"]
+            wait_for(page, "frames beside the gallery", lambda now: now["frames"] > before + 10)
+            self.shot(page, f"verification_{name}")
+            tap(page, "plots.Stop", size["width"])
+            wait_for(page, "it stops", lambda now: "plots.Run" in now["controls"])
+            page.call("Page.close")
+
+    def test_labs_by_touch(self):
+        """A lab's constants are long enough for a finger, and its pages are turned by one."""
+        for name, size in TOUCH_SIZES.items():
+            for lab, slider in [("14_bend", "lab.k_b.slider"), ("15_contact", None)]:
+                page = self.open(f"?report&lab={lab}", **size, touch=True)
+                now = wait_for(page, "the lab", lambda now: now["lab"] and now["lab"]["label"] == lab)
+                self.shot(page, f"lab_{lab}_{name}")
+                if slider:
+                    width = now["controls"][slider][2] * size["width"] / now["window"][0]
+                    assert width > 150, now["controls"][slider]
+                for _ in range(4):
+                    if {"lab.Predict", "lab.page_on"} & set(report(page)["controls"]) != {"lab.page_on"}:
+                        break
+                    tap(page, "lab.page_on", size["width"])
+                    time.sleep(1)
+                assert "lab.Predict" in report(page)["controls"], report(page)["controls"]
+                self.shot(page, f"lab_{lab}_{name}_asks")
+                page.call("Page.close")
 
     def test_in_a_course_page(self):
         """A frame leaves the course's page its focus, its wheel and its finger until it is used, and rests out of sight."""

@@ -22,6 +22,7 @@ constexpr float column_at_1 = 380, strip_at_1 = 140;           // width beside t
 constexpr float header_at_1 = 40, foot_at_1 = 38;              // of a strip's header, of a row of buttons
 constexpr float gap_at_1 = 20, paragraph_at_1 = 6;             // between columns of text, between paragraphs
 constexpr float two_columns_from = 480, rows_at_1 = 220;       // width of text in two columns, of constants beside text
+constexpr float least_text_at_1 = 300;                         // width of text beside constants
 constexpr float column_from = 1280;                            // width of a window, at the display's scale
 constexpr float least_cloth = 0.45f, presented_cloth = 0.65f;  // of the window's width
 constexpr float most_strip = 0.35f;                            // of its height
@@ -93,7 +94,8 @@ class Pages {
 /// Small capitals over a part, which is shown at once if `turn`.
 void small_head(Ui& ui, Pages& pages, const char* text, ImU32 color, bool turn = false) {
   const ImFont& font = *ui.fonts.small;
-  const bool seen = pages.block(font.FontSize - ui.theme.px(3), 2 * ui.fonts.text->FontSize);
+  const bool seen =
+      pages.block(font.FontSize - ui.theme.px(3), 2 * ui.fonts.text->FontSize + ui.theme.px(paragraph_at_1));
   if (turn) pages.turn_here();
   if (seen) draw_text(*ImGui::GetWindowDrawList(), font, ImGui::GetCursorScreenPos(), color, text);
 }
@@ -553,8 +555,15 @@ void lab_in_strip(Ui& ui, LabRun& run, const Region& region, bool with_constants
   Region area{{left, region.at.y + ui.theme.px(header_at_1)}, {width, region.size.y - ui.theme.px(header_at_1 + 4)}};
   if (with_constants && !checked_constants(ui).empty()) {
     const float rows = std::min(ui.theme.px(rows_at_1), std::floor(width / 2)), beside = rows + ui.theme.px(gap_at_1);
-    checked_rows(ui, area.at, rows);
-    area.at.x += beside, area.size.x -= beside;
+    const float above = checked_rows(ui, {}, width, true) + ui.theme.px(paragraph_at_1);
+    // Where lines beside them would be short, as on a phone, they stand above the text, if that keeps most of the room.
+    if (width - beside < ui.theme.px(least_text_at_1) && above < area.size.y / 2) {
+      checked_rows(ui, area.at, width);
+      area.at.y += above, area.size.y -= above;
+    } else {
+      checked_rows(ui, area.at, rows);
+      area.at.x += beside, area.size.x -= beside;
+    }
   }
   draw_step(ui, run, area, area.size.x >= ui.theme.px(two_columns_from) ? 2 : 1, head);
 }

@@ -23,9 +23,9 @@ void centered_text(UiContext& ui, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU3
   (void)ui;
 }
 
-/// Lists of menus and combo boxes have the same rhythm wherever they are opened from.
+/// Lists of menus and combo boxes have the same rhythm wherever they are opened from; a finger needs higher lines.
 bool list_opened(UiContext& ui) {
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(8)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(ui.input.by_touch ? 16 : 8)));
   if (ui.close_lists) ImGui::CloseCurrentPopup();
   return true;
 }

@@ -313,21 +313,31 @@ class PairSweep {
 
 /// The fallbacks of processors from before AVX2 (2013) have all features compiled in; what is off has constants of 0
 /// there. Each would take as long to compile as an instruction set that is used. For the same reason `linear` and
-/// `threads` bring bending and damping with them, and `air` these and wind.
+/// `threads` bring bending and damping with them, and `air` these and wind. A page, whose sweeps are loaded before its
+/// first frame, has a quarter as many: each takes 20 kB.
 constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSE4;
+constexpr bool page = HWY_ARCH_WASM;
+
+/// The features with which those of F are compiled.
+template <bool displacements>
+constexpr unsigned compiled_with(unsigned F) {
+  constexpr unsigned every_scene = bending | damping | wind;
+  const bool few = (F & (linear | air | threads)) != 0;
+  if (page) return F | damping | (displacements ? 0u : every_scene) | (few ? every_scene | air | threads : 0u);
+  if (fallback) return F | every_scene | threads;
+  if ((F & air) != 0) return F | every_scene;
+  return few ? F | bending | damping : F;
+}
 
 template <class R, unsigned F, bool displacements>
 void sweep_pair(const PairTask<R>& task) {
-  constexpr unsigned with = fallback                        ? bending | damping | wind | threads
-                            : (F & air) != 0                ? bending | damping | wind
-                            : (F & (linear | threads)) != 0 ? bending | damping
-                                                            : 0u;
-  constexpr unsigned compiled = F | with;
+  constexpr unsigned compiled = compiled_with<displacements>(F);
   if constexpr (F != compiled) {
     PairTask<R> t = task;
     if ((F & bending) == 0) t.bend = 0;
     if ((F & damping) == 0) t.k_d = 0;
     if ((F & wind) == 0) t.W[0] = t.W[1] = t.W[2] = 0;
+    if ((F & air) == 0) t.air_across = t.air_along = t.air_most = 0;
     sweep_pair<R, compiled, displacements>(t);
   } else {
     PairSweep<R, F, displacements>(task).run();
