@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/plain/plain_cloth.h"
 #include "core/forces/force.h"
 #include "core/integrators/scheme.h"
@@ -253,6 +254,15 @@ TEST_CASE("a rest curvature shortens the stable dt, never lengthens it, and off 
   CHECK_FALSE(force::curl.on(p));
   p = off, p.kappa_warp = 0;
   CHECK_FALSE(force::curl.on(p));
+}
+
+TEST_CASE("OpenCL devices refuse a rest curvature with every method, and say so") {
+  for (const std::string method : {"verlet", "implicit_euler"}) {
+    const Preset p = taut(method);
+    REQUIRE(missing_on_opencl(p) == &force::curl);
+    CHECK(words_of_missing(*missing_on_opencl(p), method) == "F_curl");
+  }
+  CHECK(words_of_missing(force::air, "vbd") == "F_air with vbd");
 }
 
 TEST_CASE("a finer cloth keeps the rest curvatures") {
