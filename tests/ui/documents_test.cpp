@@ -145,16 +145,17 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
 }
 
 TEST_CASE("a fabric is changed in its own units, with one undo each") {
-  test::NullUi window({.with = [](Preset& preset) { preset = with_fabric(preset, fabrics()[3]); }});
+  test::NullUi window({.with = [](Preset& preset) { preset = with_fabric(preset, fabrics()[0]), preset.dt = 1e-4; }});
   window.pause();
-  CHECK_FALSE(window.sees("fabric.mass.slider"));
+  CHECK_FALSE(window.sees("constants.fabric.mass.slider"));
   show_constant(window.ui, "k_shear");
   window.frames(10);
-  window.click("fabric_units");
+
+  window.click("constants.fabric_units");
   window.type_value("fabric.mass", "250");
   CHECK(window.preset().m == doctest::Approx(0.25 * window.preset().L * window.preset().L));
   window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
-  window.until([&] { return is_fabric(window.preset(), fabrics()[3]); }, "undo to take the mass back");
+  window.until([&] { return is_fabric(window.preset(), fabrics()[0]); }, "undo to take the mass back");
 }
 
 TEST_CASE("the start page shows the fabrics beside each other, after the other scenes") {
