@@ -71,6 +71,13 @@ double drop_of(const Preset& preset, glm::dvec3 before, glm::dvec3 last) {
   return -(last.y + preset.L / 2 * glm::normalize(last - before).y);
 }
 
+/// A strip at rest, of which the first `fixed` particles are clamped.
+void show(const Trial& trial, const Preset& preset, const Positions& x, std::size_t fixed) {
+  const auto at = [&](int i, int j) { return std::size_t(i * preset.columns + j); };
+  trial.show(
+      lattice_of(preset), [&](int i, int j) { return x[at(i, j)]; }, [&](int i, int j) { return at(i, j) < fixed; });
+}
+
 void elastica(Trial& trial) {
   const auto drop = [&](double G, double h) {
     const int edges = int(std::lround(1 / h));
@@ -81,6 +88,7 @@ void elastica(Trial& trial) {
     for (int i = 0; i <= edges; ++i) x.push_back(sagging(i, h));
     RestEnergy energy(trial.scene(preset), 2, true);
     find_rest(energy, x, [&] { trial.look(); });
+    show(trial, preset, x, 2);
     return drop_of(preset, x[x.size() - 2], x.back());
   };
   for (const double G : {1.0, 10.0, 100.0})
@@ -115,6 +123,7 @@ void end_load(Trial& trial) {
     for (int i = 0; i <= edges; ++i) x.push_back(sagging(i, preset.L));
     RestEnergy energy(scene, 2, true, {0, -4e-2, 0});
     find_rest(energy, x, [&] { trial.look(); });
+    show(trial, preset, x, 2);
     return glm::dvec2(-x.back().y, 1 - (x.back().z - preset.L / 2));
   };
   const glm::dvec2 coarse = end(16), fine = end(32);
@@ -151,6 +160,7 @@ void isotropy(Trial& trial) {
       const double across = preset.L * (j * std::sin(angle) + i * std::cos(angle));
       return glm::dvec3(R * std::sin(along / R), across, R * std::cos(along / R));
     };
+    trial.show(lattice_of(scene), x_of, [](int, int) { return false; });
     double energy = 0;
     for (const Stencil& stencil : force::rigidity.stencils(scene))
       for (int i = 10; i < 30; ++i)
@@ -172,6 +182,7 @@ bool stays_upright(Trial& trial, const Preset& preset) {
   const std::size_t fixed = 2 * std::size_t(preset.columns);
   RestEnergy energy(preset, fixed, true);
   find_rest(energy, x, [&] { trial.look(); });
+  show(trial, preset, x, fixed);
   energy.evaluate(x, true);
   const std::size_t n = x.size() - fixed;
   std::vector<double> out_of_plane(n * n);

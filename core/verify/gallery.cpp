@@ -81,7 +81,14 @@ Preset Trial::scene(Preset preset) const {
 }
 
 void Trial::show(const Simulation& simulation) const {
-  const Lattice& lattice = simulation.lattice();
+  show(
+      simulation.lattice(), [&](int i, int j) { return simulation.position(i, j); },
+      [&](int i, int j) { return simulation.pinned(i, j); });
+  outcome_.picture.bodies = simulation.bodies();
+}
+
+void Trial::show(const Lattice& lattice, const std::function<glm::dvec3(int, int)>& x_of,
+                 const std::function<bool(int, int)>& pinned) const {
   const auto drawn = [](int count) {
     std::vector<int> all;
     const int parts = std::min(count, Picture::most) - 1;
@@ -89,11 +96,11 @@ void Trial::show(const Simulation& simulation) const {
     return all;
   };
   const std::vector<int> rows = drawn(lattice.rows), columns = drawn(lattice.columns);
-  Picture picture{int(rows.size()), int(columns.size()), {}, {}, simulation.bodies()};
+  Picture picture{int(rows.size()), int(columns.size()), {}, {}, {}};
   for (const int i : rows)
     for (const int j : columns) {
-      if (simulation.pinned(i, j)) picture.pinned.push_back(int(picture.x.size()));
-      picture.x.push_back(simulation.position(i, j));
+      if (pinned(i, j)) picture.pinned.push_back(int(picture.x.size()));
+      picture.x.push_back(x_of(i, j));
     }
   outcome_.picture = std::move(picture);
 }

@@ -115,6 +115,7 @@ bool stays_bounded(Trial& trial, const char* name, double z) {
   simulation.stop_when({});
   const auto done = simulation.advance(20'000);
   trial.look();
+  trial.show(simulation);
   return !done.diverged && std::abs(simulation.position(0, 0).y - preset.x_0.y) < 1e3 * preset.offset;
 }
 
@@ -150,6 +151,7 @@ void chain_limit(Trial& trial) {
                            return !unstable(trial.scene(preset));
                          }),
                   name);
+    trial.show(trial.start(preset));
   }
 }
 

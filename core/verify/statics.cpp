@@ -70,6 +70,7 @@ void wind(Trial& trial) {
   const double turned = 30 * std::acos(-1.0) / 180,
                across = preset.W.y * std::sin(turned) + preset.W.z * std::cos(turned);
   const Simulation simulation = trial.start(preset);
+  trial.show(simulation);
   glm::dvec3 sum(0);
   for (int i = 0; i < 7; ++i)
     for (int j = 0; j < 8; ++j) sum += simulation.particle(i, j)["F_wind"];

@@ -33,6 +33,9 @@ class Trial {
   void look() const;
   /// The case's picture is that of this moment, unless another one follows.
   void show(const Simulation& simulation) const;
+  /// The same of a cloth that is no simulation.
+  void show(const Lattice& lattice, const std::function<glm::dvec3(int i, int j)>& x_of,
+            const std::function<bool(int i, int j)>& pinned) const;
 
   /// Compares two values; the case tells the comparison with the largest error. Returns the error.
   double compare(double exact, double measured, const std::string& at = {});
