@@ -94,6 +94,7 @@ Simulation::Simulation(const Simulation& from)
       pinned_mask_(from.pinned_mask_),
       pinned_(from.pinned_),
       moving_pins_(from.moving_pins_),
+      driven_(from.driven_),
       held_(from.held_),
       hand_steps_left_(from.hand_steps_left_),
       hand_force_(from.hand_force_),
@@ -109,13 +110,14 @@ Simulation::Simulation(const Simulation& from)
       watch_(from.watch_) {}
 
 void Simulation::build(const Preset& next) {
+  driven_.clear();
   lattice_ = lattice_of(next);
   tears_ = Tears(lattice_);
   pinned_mask_ = pinned_particles(next);
   pinned_ = particles_in(pinned_mask_);
   engine_ = made_engine(next, lattice_, {pinned_, {}}, start_rows(next), tears_, 0);
   preset_ = next, effective_preset_ = in_gusts(next, 0);
-  moving_pins_ = moving_pins(preset_, pinned_), driven_.clear();
+  moving_pins_ = moving_pins(preset_, pinned_);
   untouched_ = true;
   ++revision_, ++tear_revision_;
 }
@@ -134,6 +136,7 @@ std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattic
   engine->stop_when(stop_), engine->limit_steps(step_limit_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(fixed.pinned, fixed.held);
+  engine->drive_pins(driven_, false);
   engine->next_step({t, 0});
   engine->load(rows, tears);
   return engine;
@@ -248,7 +251,7 @@ bool Simulation::restarts(EffectSet changed) const {
 void Simulation::take_engine(const Preset& next, const State& state) {
   engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   if (next.dt != preset_.dt) rebase_time();
-  preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset(), driven_.clear();
+  preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
 }
 
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
@@ -324,13 +327,14 @@ void Simulation::restart_untouched(const Preset& next) {
   std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
   const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
   const Fixed fixed{particles_in(pinned_mask), held};
+  driven_.clear();
   engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
   preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
   held_ = held;
-  moving_pins_ = moving_pins(preset_, pinned_), driven_.clear();
+  moving_pins_ = moving_pins(preset_, pinned_);
 }
 
 void Simulation::grab(const edit::Grab& e) {
@@ -384,7 +388,7 @@ void Simulation::pin(const edit::Pin& e) {
   list.reserve(pinned.size());
   for (const int n : pinned) list.push_back({n / lattice_.columns, n % lattice_.columns});
   const bool lets_go = held_.particle == p;
-  MovingPins moving = moving_pins(preset_, pinned);
+  MovingPins moving = pinned == pinned_ ? moving_pins_ : moving_pins(preset_, pinned);
   fix(pinned, lets_go ? Held{} : held_);
   if (lets_go) held_ = {}, hand_force_ = {};
   pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
