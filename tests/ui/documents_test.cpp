@@ -89,16 +89,16 @@ TEST_CASE("what is typed into the save dialog replaces the name") {
 TEST_CASE("a shipped preset is opened from the list; saving over it is refused") {
   test::NullUi window;
   open_dialog(window, Kind::open);
-  window.click("dialog.entry.denim");
+  window.click("dialog.entry.sphere");
   window.frames(2);
-  CHECK(window.session.document.label == "denim");
+  CHECK(window.session.document.label == "sphere");
   CHECK(window.ui.dialog.kind == Kind::none);
   CHECK(window.session.document.file.empty());
   CHECK_FALSE(unsaved(window.session));
-  const fs::path file = find_preset("denim").file;
+  const fs::path file = find_preset("sphere").file;
   const auto before = fs::last_write_time(file);
   open_dialog(window, Kind::save);
-  save_as(window, "Denim", file);
+  save_as(window, "Sphere", file);
   if (window.sees("dialog.Replace")) window.click("dialog.Replace");
   CHECK(window.ui.dialog.problem.find("part of the program") != std::string::npos);
   CHECK(fs::last_write_time(file) == before);
@@ -197,8 +197,8 @@ TEST_CASE("the scene waits behind the start page, and starts where it stands onc
 
   window.ui.command("start_page");
   window.frames(2);
-  window.click("dialog.entry.denim");
-  window.until([&] { return window.session.document.label == "denim"; }, "the scene");
+  window.click("dialog.entry.sphere");
+  window.until([&] { return window.session.document.label == "sphere"; }, "the scene");
   window.frames(3);
   CHECK_FALSE(window.paused());
   CHECK(window.t() > 0);
