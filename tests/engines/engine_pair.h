@@ -87,8 +87,6 @@ inline Preset everything(Precision precision, const std::string& integrator = "v
   preset.tilt_deg = 20;
   preset.W = {0.001, 0.0005, 0.002};
   preset.pins.mode = Pins::Mode::left_column;
-  preset.pins.motions = {{.mode = Pins::Mode::list, .list = {{0, 0}, {1, 0}, {2, 0}}, .spin = {0, 0, 0.5}},
-                         {.mode = Pins::Mode::left_column, .path = {{0.01, {0, 0, 0}}, {0.5, {0.05, 0.1, 0.05}}}}};
   preset.bodies = {Body{}, Body{.shape = Body::Shape::plane, .y = 0.668}};
   preset.bodies[0].c = {0.05, 0.7, 0.4}, preset.bodies[0].r = 0.15;
   preset.bodies[0].friction = 0.4;

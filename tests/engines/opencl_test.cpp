@@ -45,6 +45,23 @@ TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
   }
 }
 
+TEST_CASE("pins that follow a path and turn move the cloth as on the CPU engine") {
+  if (test::skipped_without_device()) return;
+  for (const char* method : {"verlet", "implicit_euler"}) {
+    CAPTURE(std::string(method));
+    Preset preset = test::cloth(9, 11, method);
+    preset.pins.mode = Pins::Mode::left_column;
+    preset.pins.motions = {{.mode = Pins::Mode::list, .list = {{0, 0}, {1, 0}}, .spin = {0, 0, 3}},
+                           {.mode = Pins::Mode::left_column, .path = {{0.01, {0, 0, 0}}, {0.2, {0.05, 0.1, 0.05}}}}};
+    Pair pair(preset);
+    pair.advance(60);
+    pair.check();
+    pair.apply(edit::Grab{4, 5});
+    pair.advance(10);
+    pair.check();
+  }
+}
+
 TEST_CASE("the hand feels the same force wherever it holds, on the border of two bands too") {
   if (test::skipped_without_device()) return;
   for (const int row : {12, 13, 14, 15, 16, 17}) {
