@@ -159,7 +159,7 @@ TEST_CASE("however few products: what is left lies on the side on which a step o
     CHECK(with_rest > 0);
     CHECK(std::sqrt(rest / size) <= coarse.left * (1 + 1e-9));
   }
-  const auto stopped = solved<double>(scene, {1e12, {}}, 1e-12);
+  const auto stopped = solved<double>(scene, SpringWeights{{1e12, 0, 0, 0}}, 1e-12);
   CHECK(stopped.products == cpu::ConstantSolver<double>::most_products);
   CHECK(stopped.left > 0.99);
 }
