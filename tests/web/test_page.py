@@ -215,7 +215,7 @@ class Tests:
         wait_for(page, "the link opens", lambda now: now["preset"]["forces"]["k_s"] == 80)
         self.browser_call(page, "Browser.grantPermissions", permissions=["clipboardReadWrite", "clipboardSanitizedWrite"])
         command(page, "copy link")
-        time.sleep(0.5)
+        page.wait("navigator.clipboard.readText().then((text) => text.includes('#'))")
         link = page.ask("navigator.clipboard.readText()")
         assert link.startswith(self.home) and "k_s=80" in link, link
         page.wait("location.hash.includes('k_s=80')")
