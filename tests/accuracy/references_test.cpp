@@ -110,7 +110,7 @@ TEST_CASE("every method's row holds what it claims, and converges") {
   scene.seconds = 0.01;
   Reference reference;
   reference.track = odeint_track(scene, 1e-11, never);
-  const AccuracyEffort effort{test::sanitized ? 1 : 0.02, false, 0};
+  const AccuracyEffort effort{test::sanitized ? 1 : 0.2, false, 0};
   for (const std::string_view name : integrator_names()) {
     CAPTURE(std::string(name));
     const auto rows = measure_integrator(scene, reference, std::string(name), Precision::double_, effort, never);

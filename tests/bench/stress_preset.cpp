@@ -51,13 +51,29 @@ void choose_size(Preset& p, StressRandom& random) {
   if (random.chance(0.5) && p.columns >= 2) std::swap(p.rows, p.columns);
 }
 
-Pins random_pins(const Preset& p, StressRandom& random) {
-  Pins pins;
-  pins.mode = Pins::Mode(random.below(int(Pins::Mode::list) + 1));
-  if (pins.mode != Pins::Mode::list) return pins;
+/// Those of one of the names, or some of a list.
+void choose_sites(const Preset& p, StressRandom& random, Pins::Mode& mode, std::vector<Pins::Site>& list) {
+  mode = Pins::Mode(random.below(int(Pins::Mode::list) + 1));
+  if (mode != Pins::Mode::list) return;
   for (int n = random.below(20); n > 0; --n) {
     const Pins::Site site{random.below(p.rows), random.below(p.columns)};
-    if (std::find(pins.list.begin(), pins.list.end(), site) == pins.list.end()) pins.list.push_back(site);
+    if (std::find(list.begin(), list.end(), site) == list.end()) list.push_back(site);
+  }
+}
+
+/// Pins that rest, or some of them follow paths and turn.
+Pins random_pins(const Preset& p, StressRandom& random) {
+  Pins pins;
+  choose_sites(p, random, pins.mode, pins.list);
+  if (random.chance(0.8)) return pins;
+  for (int n = 1 + random.below(2); n > 0; --n) {
+    Pins::Motion& motion = pins.motions.emplace_back();
+    choose_sites(p, random, motion.mode, motion.list);
+    for (double t = 0; motion.path.size() < 4 && random.chance(0.7); t += random.decades(1e-3, 1))
+      motion.path.push_back({t, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}});
+    for (int c = 0; c < 3; ++c)
+      motion.spin[c] = signed_decades(1000, random), motion.center[c] = random.uniform(-1, 1) + p.x_0[c] * 0.999;
+    motion.until = random.chance(0.5) ? 0 : random.decades(1e-3, 10);
   }
   return pins;
 }

@@ -7,6 +7,7 @@
 
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
@@ -38,10 +39,10 @@ const std::vector<std::string> tokens = [] {
 }();
 
 std::vector<std::string> all_keys() {
-  std::vector<std::string> keys = {"tyglab_preset", "kind",    "name",      "description", "cloth",
-                                   "forces",        "tearing", "bodies",    "solver",      "view",
-                                   "pins",          "engine",  "precision", "shape",       "",
-                                   "rowss",         "K_S",     "bodies[0]", "k_s ",        "\\u006b_s"};
+  std::vector<std::string> keys = {
+      "tyglab_preset", "kind",      "name",        "description", "cloth", "forces", "tearing", "bodies", "solver",
+      "view",          "pins",      "engine",      "precision",   "shape", "",       "rowss",   "K_S",    "bodies[0]",
+      "k_s ",          "\\u006b_s", "pin_motions", "path",        "until", "fabric", "warp"};
   for (const PresetRow& row : notation()) keys.emplace_back(row.key);
   for (const BodyRow& row : body_notation()) keys.emplace_back(row.key);
   return keys;
@@ -53,8 +54,10 @@ Preset sample(Random& random) {
   preset.columns = 1 + random.below(60);
   preset.description = "täcke";
   preset.bodies.resize(std::size_t(random.below(4)));
-  for (Body& body : preset.bodies) body.shape = random.below(2) == 0 ? Body::Shape::sphere : Body::Shape::plane;
+  for (Body& body : preset.bodies) body.shape = Body::Shape(random.below(int(shape_names.size())));
   if (random.below(3) == 0) preset.pins = {Pins::Mode::list, {{0, 0}, {preset.rows - 1, preset.columns - 1}}};
+  if (random.below(3) == 0)
+    preset.pins.motions = {{Pins::Mode::list, {{0, 0}}, {{0, {0, 0, 0}}, {1, {0, 0.5, 0}}}, {0, 3, 0}, {0, 1, 0}, 2}};
   return preset;
 }
 

@@ -11,6 +11,7 @@
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/model/words.h"
 
 namespace tyglab::fuzz {
 namespace {
@@ -59,14 +60,27 @@ int length(Random& random) {
   return odd[random.below(int(std::size(odd)))];
 }
 
-Pins pins(Random& random, const Preset& preset) {
-  Pins out;
-  out.mode = Pins::Mode(random.below(int(Pins::Mode::list) + 1));
-  if (out.mode != Pins::Mode::list) return out;
-  std::vector<Pins::Site>& list = out.list;
+void choose_sites(Random& random, const Preset& preset, Pins::Mode& mode, std::vector<Pins::Site>& list) {
+  mode = Pins::Mode(random.below(int(Pins::Mode::list) + 1));
+  if (mode != Pins::Mode::list) return;
   for (int n = random.below(6); n > 0; --n) {
     const Pins::Site site{random.below(preset.rows), random.below(preset.columns)};
     if (std::find(list.begin(), list.end(), site) == list.end()) list.push_back(site);
+  }
+}
+
+Pins pins(Random& random, const Preset& preset) {
+  Pins out;
+  choose_sites(random, preset, out.mode, out.list);
+  for (int n = std::max(0, random.below(5) - 2); n > 0; --n) {
+    Pins::Motion& motion = out.motions.emplace_back();
+    choose_sites(random, preset, motion.mode, motion.list);
+    for (double t = 0; random.below(4) != 0; t += std::pow(10, random.uniform(-4, 0)))
+      motion.path.push_back({t, {extreme(random, -1000, 1000, 0.1), random.uniform(-1, 1), random.uniform(-1, 1)}});
+    for (int c = 0; c < 3; ++c)
+      if (random.below(3) == 0) motion.spin[c] = extreme(random, -1000, 1000, 1);
+    if (random.below(2) == 0) motion.center = preset.x_0 * 0.1;
+    if (random.below(2) == 0) motion.until = extreme(random, 0, 1000, 0.1);
   }
   return out;
 }
@@ -74,7 +88,7 @@ Pins pins(Random& random, const Preset& preset) {
 void add_bodies(Random& random, Preset& preset) {
   for (int n = random.below(4); n > 0; --n) {
     Body& body = preset.bodies.emplace_back();
-    body.shape = random.below(2) == 0 ? Body::Shape::sphere : Body::Shape::plane;
+    body.shape = Body::Shape(random.below(int(shape_names.size())));
     body.c = preset.x_0, body.y = random.uniform(-1, 2);
     for (const BodyRow& row : body_notation())
       if (random.below(3) == 0) make_extreme(random, row, body);
@@ -108,7 +122,9 @@ Preset preset_of(Random& random, bool with_opencl) {
   if (random.below(2) == 0) preset.pins = pins(random, preset);
   if (random.below(3) == 0) add_bodies(random, preset);
   if (random.below(6) == 0) make_tear(random, preset);
-  if (with_opencl && random.below(50) == 0 && runs_on_opencl(scheme(preset.integrator)))
+  preset.contact = contact_names[std::size_t(random.below(int(contact_names.size())))];
+  if (with_opencl && random.below(50) == 0 && runs_on_opencl(scheme(preset.integrator)) &&
+      missing_on_opencl(preset) == nullptr)
     preset.engine = EngineKind::opencl;
   return preset;
 }

@@ -8,6 +8,7 @@
 
 #include "core/cloth/state.h"
 #include "core/engines/motion_limit.h"
+#include "core/forces/force.h"
 #include "tests/fuzz/csv_reader.h"
 
 namespace tyglab::fuzz {
@@ -94,11 +95,19 @@ Problem motion_finding(const RunCase& one, std::int64_t steps, const CsvTable& s
   if (preset.kind == Kind::one_weight) {
     springs = preset.k / preset.m * preset.offset * preset.offset;
   } else {
-    const double longer = std::abs(preset.initial_stretch - 1) * preset.L;
-    springs = double(lattice.size()) / preset.m * longer * longer * (6 * preset.k_s + 8 * preset.k_b);
-    for (const Body& body : preset.bodies)
-      pushed += std::sqrt(double(lattice.size())) *
-                (body.shape == Body::Shape::plane ? 2 * far + std::abs(body.y) : 2 * body.r);
+    for (const Direction& direction : directions) {
+      const double longer = (preset.initial_stretch - 1) * direction.rest * preset.L;
+      springs += spring_constant(preset, direction) * longer * longer;
+    }
+    // A flat cloth that has rest curvatures.
+    springs += preset.B * std::pow(2 * (std::abs(preset.kappa_warp) + std::abs(preset.kappa_weft)) * preset.L, 2) *
+               std::pow(std::max(preset.initial_stretch, 1.0), 2);
+    springs *= double(lattice.size()) / preset.m;
+    for (const Body& body : preset.bodies) {
+      const bool plane = body.shape == Body::Shape::plane;
+      const double wide = 2 * body.r + body.length + glm::length(body.size);
+      pushed += std::sqrt(double(lattice.size())) * (plane ? 2 * far + glm::length(body.c) + std::abs(body.y) : wide);
+    }
   }
   MotionLimit limit;
   limit.set_scene(preset, lattice, false, {});
