@@ -308,20 +308,14 @@ class Reader {
     for (const FabricQuantity& quantity : fabric_quantities()) known.push_back(quantity.key);
     for (const auto& [key, child] : node.members)
       if (std::find(known.begin(), known.end(), key) == known.end()) unknown(child.line, path + "." + key, key, known);
-    for (const FabricQuantity& quantity : fabric_quantities()) {
-      const JsonNode* child = node.find(quantity.key);
-      if (child == nullptr) continue;
-      const std::string at = path + "." + std::string(quantity.key);
-      double number = 0;
-      value(*child, at, number);
-      if (!(number >= quantity.min && number <= quantity.max))
-        fail(child->line, at,
-             shortest_number(number) + " is not allowed; allowed: " + shortest_number(quantity.min) + " to " +
-                 shortest_number(quantity.max) + " " + std::string(quantity.unit));
-      quantity.set(p, number);
-      if (const double kept = quantity.of(p); !(std::abs(kept - number) <= 1e-9 * std::abs(number)))
-        fail(child->line, at,
-             "must be at least fabric.shear, " + shortest_number(kept) + " N/m, since diagonals resist a stretch too");
+    const auto path_of = [&](const FabricQuantity& quantity) { return path + "." + std::string(quantity.key); };
+    FabricValues values(known.size());
+    for (std::size_t n = 0; n < values.size(); ++n)
+      if (const JsonNode* child = node.find(known[n]))
+        value(*child, path_of(fabric_quantities()[n]), values[n].emplace());
+    if (const auto problem = set_fabric(p, values)) {
+      const JsonNode* child = node.find(problem->quantity->key);
+      fail((child != nullptr ? child : &node)->line, path_of(*problem->quantity), problem->why);
     }
   }
 
@@ -508,15 +502,15 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
       if (key == "texture") texture_line = child.line;
     }
   }
-  // Whatever section comes first, in units that depend on none.
-  if (const JsonNode* fabric = root.find("fabric")) {
-    reader.fabric(*fabric, "fabric", preset);
-    if (const auto problem = check_preset(preset); !problem.empty()) reader.fail(fabric->line, "fabric", problem);
-  }
   if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
     reader.fail(pins_line, "cloth.pins", problem);
   if (const auto problem = motions_problem(preset); !problem.empty())
     reader.fail(motions_line, "cloth.pin_motions", problem);
+  // After all others, since it depends on L: what they say is right, so whatever is not is due to the fabric.
+  if (const JsonNode* fabric = root.find("fabric")) {
+    reader.fabric(*fabric, "fabric", preset);
+    if (const auto problem = check_preset(preset); !problem.empty()) reader.fail(fabric->line, "fabric", problem);
+  }
   if (!folder.empty())
     if (const auto problem = texture_problem(preset.texture, folder); !problem.empty())
       reader.fail(texture_line, "view.texture", problem);

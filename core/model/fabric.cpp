@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -38,6 +42,7 @@ double area_of(const Preset& p) {
 
 constexpr double milli = 1e-3, micro = 1e-6;
 
+/// In the order in which they are set: masses depend on the spacing, and threads share the shear.
 constexpr std::array<FabricQuantity, 6> quantities{{
     {"spacing", "L", "Distance of particles", "Partikelavstånd", "mm", "The mass per area stays.", 0.1, 1e4,
      [](const Preset& p) { return p.L / milli; },
@@ -50,7 +55,8 @@ constexpr std::array<FabricQuantity, 6> quantities{{
      [](Preset& p, double value) { p.m = value * milli * area_of(p); }},
     {"B", "B", "Bending rigidity", "Böjstyvhet", "µN·m", "Moment per width and curvature.", 0, 1e9,
      [](const Preset& p) { return p.B / micro; }, [](Preset& p, double value) { p.B = value * micro; }},
-    {"shear", "G", "Resistance to shear", "Skjuvstyvhet", "N/m", "k_shear = G; warp and weft stay.", 0, 1e8, shear_of,
+    {"shear", "G", "Resistance to shear", "Skjuvstyvhet", "N/m",
+     "k_shear = G, at most the resistance of either thread, which stays.", 0, 1e8, shear_of,
      [](Preset& p, double value) {
        const double warp = warp_of(p), weft = weft_of(p);
        p.k_shear = value;
@@ -63,11 +69,39 @@ constexpr std::array<FabricQuantity, 6> quantities{{
      "At constant width: k_weft = C_weft - k_shear, so at least the shear.", 0, 1e8, weft_of,
      [](Preset& p, double value) { p.k_weft = std::max(value - shear_of(p), 0.0); }},
 }};
+constexpr const FabricQuantity& shear = quantities[3];
+static_assert(shear.key == "shear");
 
 }  // namespace
 
 std::span<const FabricQuantity> fabric_quantities() {
   return quantities;
+}
+
+std::optional<FabricProblem> set_fabric(Preset& preset, const FabricValues& values) {
+  assert(values.size() == quantities.size());
+  Preset next = preset;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const FabricQuantity& quantity = quantities[n];
+    if (!values[n]) continue;
+    if (!(*values[n] >= quantity.min && *values[n] <= quantity.max))
+      return FabricProblem{&quantity, shortest_number(*values[n]) +
+                                          " is not allowed; allowed: " + shortest_number(quantity.min) + " to " +
+                                          shortest_number(quantity.max) + " " + std::string(quantity.unit)};
+    quantity.set(next, *values[n]);
+  }
+  // Threads resist a stretch at least as much as shear, since the diagonals do: then one was not set, or did not stay.
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const double wanted = values[n].value_or(quantities[n].of(preset));
+    if (std::abs(quantities[n].of(next) - wanted) <= 1e-9 * std::abs(wanted)) continue;
+    if (values[n])
+      return FabricProblem{&quantities[n], "must be at least the shear, " + quantity(shear_of(next), "N/m") +
+                                               ", since diagonals resist a stretch too"};
+    return FabricProblem{
+        &shear, "must be at most the resistance to a stretch, " + quantity(wanted, "N/m") + ", to which diagonals add"};
+  }
+  preset = std::move(next);
+  return std::nullopt;
 }
 
 std::span<const Fabric> fabrics() {

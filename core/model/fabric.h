@@ -1,8 +1,11 @@
 // Fabrics that were measured, and a few that are estimated, as constants of a cloth.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/model/preset.h"
 
@@ -27,10 +30,18 @@ struct FabricQuantity {
   std::string_view key, symbol, name, namn, unit, help;
   double min, max;
   double (*of)(const Preset&);
-  void (*set)(Preset&, double);
+  void (*set)(Preset&, double);  ///< for set_fabric() alone
 };
-/// The spacing first, since masses depend on it, and shear before the threads, which share it.
 std::span<const FabricQuantity> fabric_quantities();
+/// A value of each, or none for those that stay.
+using FabricValues = std::vector<std::optional<double>>;
+/// Sets the quantities that have a value; the others stay. If that cannot be, the preset stays as it is, and which
+/// quantity is to blame and why is returned.
+struct FabricProblem {
+  const FabricQuantity* quantity;
+  std::string why;  ///< "must be at least the shear, 53 N/m"
+};
+std::optional<FabricProblem> set_fabric(Preset& preset, const FabricValues& values);
 
 /// (B/ρg)^(1/3), m: a strip of a few times that length droops by its own weight. `mass` in kg/m², g in m/s²; 0 where B
 /// is, infinity without weight.

@@ -80,7 +80,9 @@ TEST_CASE("each quantity of a fabric is read back as it was set, and leaves the 
     CAPTURE(std::string(quantity.key));
     Preset other = preset;
     const double wanted = 1.25 * quantity.of(preset);
-    quantity.set(other, wanted);
+    FabricValues values(fabric_quantities().size());
+    values[std::size_t(&quantity - fabric_quantities().data())] = wanted;
+    CHECK_FALSE(set_fabric(other, values).has_value());
     CHECK(quantity.of(other) == doctest::Approx(wanted).epsilon(1e-12));
     for (const FabricQuantity& beside : fabric_quantities())
       if (beside.key != quantity.key) CHECK(beside.of(other) == doctest::Approx(beside.of(preset)).epsilon(1e-12));
@@ -101,7 +103,10 @@ TEST_CASE("a file may name a fabric's quantities, in whatever order its sections
   CHECK(preset.B == doctest::Approx(64e-6));
   CHECK(parse_preset(preset_to_json(preset), "again") == preset);
   for (const auto& [fabric, why] : std::vector<std::pair<std::string, std::string>>{
-           {R"({"shear": 50, "warp": 20})", "fabric.warp: must be at least fabric.shear"},
+           {R"({"shear": 50, "warp": 20})", "fabric.warp: must be at least the shear, 50 N/m"},
+           {R"({"shear": 500})", "fabric.shear: must be at most the resistance to a stretch, 100 N/m"},
+           {R"({"mass": 1e5, "spacing": 1e4, "B": 1e9, "warp": 1e8, "weft": 1e8, "shear": 1e8})",
+            "fabric: cloth.m: 10000 is not allowed"},
            {R"({"mass": -1})", "fabric.mass: -1 is not allowed"},
            {R"({"mas": 1})", "fabric.mas: unknown key; did you mean mass"},
            {R"({"B": "stiff"})", "fabric.B: must be a number"}}) {

@@ -368,7 +368,10 @@ void fabric_quantity_row(Ui& ui, const FabricQuantity& quantity) {
   line.standard[0] = quantity.of(Preset{});
   line.set = [&ui, &quantity](const double* value, unsigned gesture) {
     Preset next = ui.session.requested_preset();
-    quantity.set(next, value[0]);
+    FabricValues values(fabric_quantities().size());
+    values[std::size_t(&quantity - fabric_quantities().data())] = value[0];
+    if (const auto problem = set_fabric(next, values))
+      return ui.refuse_number(std::string(problem->quantity->symbol) + " " + problem->why + ".");
     if (const std::string problem = check_preset(next); !problem.empty())
       return ui.refuse_number(sentence(problem) + ".");
     ui.session.propose(std::move(next), gesture);
