@@ -19,76 +19,93 @@ bool spins(const Pins::Motion& motion) {
   return motion.spin != glm::dvec3(0);
 }
 
-/// How far the path has led by then.
-glm::dvec3 way(const Pins::Motion& motion, double t) {
-  return motion.path.empty() ? glm::dvec3(0) : on_path(motion.path, t) - on_path(motion.path, 0);
-}
+/// What a motion has done by some time: turned the pins about its center, and led them away.
+struct Pose {
+  glm::dquat turn{1, 0, 0, 0};
+  glm::dvec3 center{0}, way{0};
+  glm::dvec3 place(const glm::dvec3& home) const { return center + turn * (home - center) + way; }
+  glm::dvec3 home(const glm::dvec3& place) const { return center + glm::conjugate(turn) * (place - way - center); }
+};
 
-/// `v` turned as far as the motion has by then; `sign` -1: back.
-glm::dvec3 turned(const Pins::Motion& motion, double t, double sign, const glm::dvec3& v) {
-  if (!spins(motion)) return v;
+Pose pose_at(const Pins::Motion& motion, double t) {
+  Pose pose;
+  pose.center = motion.center;
+  if (!motion.path.empty()) pose.way = on_path(motion.path, t) - on_path(motion.path, 0);
+  if (!spins(motion)) return pose;
   const double rate = glm::length(motion.spin), over = motion.until > 0 ? std::min(t, motion.until) : t;
-  return glm::angleAxis(sign * rate * over, motion.spin / rate) * v;
+  pose.turn = glm::angleAxis(rate * over, motion.spin / rate);
+  return pose;
 }
 
-glm::dvec3 place(const Pins::Motion& motion, const glm::dvec3& home, double t) {
-  return motion.center + turned(motion, t, 1, home - motion.center) + way(motion, t);
+std::vector<Pose> poses_at(const std::vector<Pins::Motion>& motions, double t) {
+  std::vector<Pose> poses;
+  poses.reserve(motions.size());
+  for (const Pins::Motion& motion : motions) poses.push_back(pose_at(motion, t));
+  return poses;
 }
 
 }  // namespace
 
-MovingPins::MovingPins(const Preset& preset, std::span<const int> pinned, const std::function<glm::dvec3(int)>& x_of,
-                       double t)
-    : motions_(preset.pins.motions) {
-  const Lattice lattice = lattice_of(preset);
-  std::vector<std::vector<std::uint8_t>> masks;
-  for (const Pins::Motion& motion : motions_) masks.push_back(particles_at(lattice, motion.mode, motion.list));
-  for (const int particle : pinned)
-    for (std::size_t n = 0; n < motions_.size(); ++n) {
-      if (masks[n][std::size_t(particle)] == 0) continue;
-      const Pins::Motion& motion = motions_[n];
-      const glm::dvec3 home = motion.center + turned(motion, t, -1, x_of(particle) - way(motion, t) - motion.center);
-      pins_.push_back({particle, n, home});
-      break;
-    }
-}
-
-PinSpan MovingPins::span_at(std::int64_t step, double since, double dt) const {
+PinSpan pin_span(const std::vector<Pins::Motion>& motions, std::int64_t step, double since, double dt) {
   assert(dt > 0);
-  PinSpan span{step - step % longest_span, step - step % longest_span + longest_span};
-  bool spinning = false, moves_later = false;
-  // A time at which velocities jump; a step that it divides is a span of its own.
-  const auto jump = [&](double t) {
-    constexpr double whole = 1e-6;
-    const double number = (t - since) / dt, nearest = std::round(number);
-    moves_later = moves_later || number > double(step);
-    if (!(std::abs(number) < 1e15)) return;
-    const bool divides = std::abs(number - nearest) > whole;
-    for (const double edge : {divides ? std::floor(number) : nearest, divides ? std::ceil(number) : nearest}) {
-      const auto at = std::int64_t(edge);
-      if (at > step) span.end = std::min(span.end, at);
-      if (at <= step && at >= span.begin) span.begin = at, span.after_jump = true;
-    }
+  using Limits = std::numeric_limits<std::int64_t>;
+  std::int64_t last = Limits::min(), next = Limits::max();  // the jumps of velocities on either side
+  const auto meet = [&](std::int64_t edge) {
+    if (edge > step)
+      next = std::min(next, edge);
+    else
+      last = std::max(last, edge);
   };
-  for (const Pins::Motion& motion : motions_) {
+  // A step within which one lies is a span of its own. Returns where it ends.
+  const auto jump = [&](double t) {
+    constexpr double whole = 1e-6, most = 1e15;
+    const double number = std::clamp((t - since) / dt, -most, most), nearest = std::round(number);
+    const bool at_step = std::abs(number - nearest) <= whole;
+    if (!at_step) meet(std::int64_t(std::floor(number)));
+    const auto end = std::int64_t(at_step ? nearest : std::ceil(number));
+    meet(end);
+    return end;
+  };
+  bool spinning = false;
+  for (const Pins::Motion& motion : motions) {
     for (const PathKey& key : motion.path) jump(key.t);
-    if (!spins(motion)) continue;
-    if (motion.until > 0) jump(motion.until);
-    if (motion.until == 0 || since + double(step) * dt < motion.until) spinning = true;
+    if (spins(motion) && (motion.until == 0 || jump(motion.until) > step)) spinning = true;
   }
-  if (spinning) return {step, step + 1, span.after_jump && span.begin == step};
-  // From the last key on they rest.
-  if (!moves_later && span.after_jump) span.end = std::numeric_limits<std::int64_t>::max();
-  return span;
+  if (spinning) return {step, step + 1, last == step};
+  if (next == Limits::max()) return {last, next, true};  // they rest from now on
+  const std::int64_t block = step - step % longest_span;
+  return {std::max(block, last), std::min(block + longest_span, next), last >= block};
 }
 
-std::vector<DrivenPin> MovingPins::at(double t, double seconds) const {
-  assert(seconds > 0);
+MovingPins::MovingPins(const Preset& preset, std::span<const int> pinned, const std::function<glm::dvec3(int)>& x_of,
+                       double t) {
+  const std::vector<Pins::Motion>& motions = preset.pins.motions;
+  const Lattice lattice = lattice_of(preset);
+  const std::vector<Pose> poses = poses_at(motions, t);
+  std::vector<std::vector<std::uint8_t>> masks;
+  for (const Pins::Motion& motion : motions) masks.push_back(particles_at(lattice, motion.mode, motion.list));
+  for (const int particle : pinned)
+    for (std::size_t n = 0; n < motions.size(); ++n)
+      if (masks[n][std::size_t(particle)] != 0) {
+        pins_.push_back({particle, n, poses[n].home(x_of(particle))});
+        break;
+      }
+}
+
+std::vector<DrivenPin> MovingPins::in(const PinSpan& span, const std::vector<Pins::Motion>& motions, double since,
+                                      double dt) const {
+  assert(span.begin < span.end && dt > 0);
+  // Of pins that rest for good any time will do.
+  const std::int64_t begin = std::max(span.begin, span.end - longest_span);
+  const double seconds = double(std::min(span.end - begin, longest_span)) * dt;
+  const std::vector<Pose> before = poses_at(motions, since + double(begin) * dt),
+                          after = poses_at(motions, since + double(begin) * dt + seconds);
   std::vector<DrivenPin> all;
   all.reserve(pins_.size());
   for (const auto& [particle, n, home] : pins_) {
-    const glm::dvec3 x = place(motions_[n], home, t);
-    all.push_back({particle, x, (place(motions_[n], home, t + seconds) - x) / seconds});
+    assert(n < motions.size());
+    const glm::dvec3 x = before[n].place(home);
+    all.push_back({particle, x, (after[n].place(home) - x) / seconds});
   }
   return all;
 }

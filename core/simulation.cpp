@@ -184,21 +184,19 @@ MovingPins Simulation::moving_pins(const Preset& preset, std::span<const int> pi
 
 /// Gives pins that move the velocities of the coming step. Returns for how many steps they keep them.
 int Simulation::drive_pins() {
-  constexpr std::int64_t longest = 1 << 20;
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
   const std::int64_t step = steps_ - steps_at_dt_;
-  const PinSpan span = moving_pins_.span_at(step, time_at_dt_, preset_.dt);
-  const bool begins = span.begin == step;
-  std::vector<DrivenPin> driven = moving_pins_.at(time_at_dt_ + double(span.begin) * preset_.dt,
-                                                  double(std::min(span.end - span.begin, longest)) * preset_.dt);
-  if (begins || driven != driven_) {
-    const bool jumps = begins && span.after_jump;
+  const PinSpan span = pin_span(preset_.pins.motions, step, time_at_dt_, preset_.dt);
+  const bool begins = span.begin == step, jumps = begins && span.after_jump;
+  if (begins || driven_.empty()) {
+    std::vector<DrivenPin> driven = moving_pins_.in(span, preset_.pins.motions, time_at_dt_, preset_.dt);
     // Where velocities jump, so do the damping and the air of particles beside them.
     if (jumps && (force::damping.on(preset_) || force::air.on(preset_))) engine_->synchronize(tears_);
     engine_->drive_pins(driven, begins);
     driven_ = std::move(driven);
     if (jumps) watch_edit(Ledger::Source::hand);
   }
-  return int(std::min(span.end - step, longest));
+  return int(std::min(span.end - step, most));
 }
 
 void Simulation::apply(const Edit& edit) {
@@ -541,8 +539,7 @@ Snapshot Simulation::snapshot() {
           time_at_dt_,
           effective_preset_.W,
           effective_preset_.u,
-          moving_pins_,
-          driven_};
+          moving_pins_};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -554,9 +551,8 @@ void Simulation::restore(const Snapshot& then) {
   // What the method held then belongs to the wind of its last step, and learns of the next one's when that begins.
   if (repeats) gusty.W = then.W, gusty.u = then.u;
   MovingPins moving;
-  std::vector<DrivenPin> driven;
   if (repeats)
-    moving = then.moving_pins, driven = then.driven;
+    moving = then.moving_pins;
   else if (!preset_.pins.motions.empty())
     moving = MovingPins(
         preset_, pinned_,
@@ -565,6 +561,12 @@ void Simulation::restore(const Snapshot& then) {
           return glm::dvec3(x.x[std::size_t(p)], x.y[std::size_t(p)], x.z[std::size_t(p)]);
         },
         then.t);
+  std::vector<DrivenPin> driven;
+  if (!moving.empty()) {
+    const double since = repeats ? then.time_at_dt : then.t;
+    const PinSpan span = pin_span(preset_.pins.motions, repeats ? then.steps - then.steps_at_dt : 0, since, preset_.dt);
+    driven = moving.in(span, preset_.pins.motions, since, preset_.dt);
+  }
   engine_->prepare(pinned_.size());
   if (watch_) energy();
   if (gusts(preset_) || pushed_until_) engine_->set_preset(gusty, tears_);

@@ -51,8 +51,9 @@ struct Snapshot {
   glm::dvec3 W{0};                           ///< the wind of the last step, N: that of the next begins with a new gust
   glm::dvec3 u{0};                           ///< likewise, m/s
   MovingPins moving_pins{};
-  std::vector<DrivenPin> driven{};  ///< as the engine had them
-  std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0); }
+  std::size_t bytes() const {
+    return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0) + moving_pins.bytes();
+  }
   /// A lower bound of bytes() for a lattice.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
 };

@@ -41,7 +41,6 @@ struct DrivenPin {
   int particle;  ///< i·columns + j
   glm::dvec3 x;  ///< m
   glm::dvec3 v;  ///< m/s
-  bool operator==(const DrivenPin&) const = default;
 };
 
 /// Why a run ended.

@@ -407,18 +407,20 @@ void OpenClEngine<R>::write_fixed_velocities(bool place) {
     for (int c = 0; c < 3; ++c) values.push_back(R(pin.x[c]));
     for (int c = 0; c < 3; ++c) values.push_back(R(pin.v[c] * velocity_scale()));
   }
-  const auto on_device = [&](const void* from, std::size_t bytes) {
-    Memory memory = device_->zeros(bytes);
-    check(clEnqueueWriteBuffer(device_->queue(), memory.get(), CL_TRUE, 0, bytes, from, 0, nullptr, nullptr),
+  const std::size_t driven = driven_.size();
+  if (driven > driven_room_) {
+    driven_list_ = device_->zeros(driven * sizeof(int)), driven_values_ = device_->zeros(6 * driven * sizeof(R));
+    driven_room_ = driven;
+  }
+  const auto write = [&](const Memory& to, const void* from, std::size_t bytes) {
+    check(clEnqueueWriteBuffer(device_->queue(), to.get(), CL_TRUE, 0, bytes, from, 0, nullptr, nullptr),
           "writing to the device");
-    return memory;
   };
-  const Memory which = on_device(particles.data(), particles.size() * sizeof(int));
-  const Memory what = on_device(values.data(), values.size() * sizeof(R));
-  const cl_mem x = state_.vector(vector_x), numbers = which.get(), list_of_values = what.get();
+  write(driven_list_, particles.data(), driven * sizeof(int));
+  write(driven_values_, values.data(), 6 * driven * sizeof(R));
+  const cl_mem x = state_.vector(vector_x), numbers = driven_list_.get(), list_of_values = driven_values_.get();
   set_arguments(kernels_.drive_pins, 0, x, v, seen, numbers, list_of_values, cl_int(place), cl_int(state_.stride()),
                 cl_int(lattice_.columns));
-  const std::size_t driven = driven_.size();
   check(clEnqueueNDRangeKernel(device_->queue(), kernels_.drive_pins.get(), 1, nullptr, &driven, nullptr, 0, nullptr,
                                nullptr),
         "starting a kernel");

@@ -191,6 +191,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   int share_count_ = 0;
   std::vector<int> pinned_;
   std::vector<DrivenPin> driven_;
+  Memory driven_list_, driven_values_;  ///< of as many pins as have room
+  std::size_t driven_room_ = 0;
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;
   bool synchronized_ = true;  ///< vectors 0 and 1 hold positions and velocities of one time, others nothing
