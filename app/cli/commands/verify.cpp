@@ -65,7 +65,7 @@ std::function<void(Preset&)> disturbance(const std::string& text) {
   };
 }
 
-/// Lengths in m, to a ten-thousandth of a drawing of that size.
+/// Lengths in m, rounded to 10 µm: pictures need no more.
 Json picture_json(const verify::Picture& picture) {
   const auto place = [](const glm::dvec3& x) {
     const auto rounded = [](double value) { return std::isfinite(value) ? std::round(value * 1e5) / 1e5 : 0; };

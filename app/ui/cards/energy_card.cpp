@@ -163,7 +163,7 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& r, const Preset& preset)
                   "Work of bodies: impacts and friction. Bodies at rest only remove energy.", r.works.contact});
   rows.push_back({EnergyKind::works, "tearing, cutting", "Energy of springs that tore or were cut.", r.works.tearing});
   add_works(Force::Group::external);
-  rows.push_back({EnergyKind::works, "hand", "Work of the hand.", r.works.hand});
+  rows.push_back({EnergyKind::works, "hand", "Work of the hand, and of pins that move.", r.works.hand});
   rows.push_back(
       {EnergyKind::works, "edits", "Jumps in energy when constants, pins or methods change.", r.works.edits});
   rows.push_back({EnergyKind::unexplained, "added by the method",

@@ -54,7 +54,7 @@ constexpr Feature features[] = {
     {"air", "Drag and lift: on if ρ_air > 0.", nullptr, Spent::step},
     {"bodies", "Contact with bodies.", nullptr, Spent::step},
     {"tearing", "On if F_max > 0: springs are measured when one may be long enough to tear.", nullptr, Spent::step},
-    {"pins", "Particles that never move.", nullptr, Spent::step},
+    {"pins", "Particles that forces do not move.", nullptr, Spent::step},
     {"hand", "The particle that follows the pointer.", nullptr, Spent::step},
     {"tear masks", "On once a spring is torn.", [](const Ui& u) { return !u.session.simulation->tears().untorn(); },
      Spent::step},

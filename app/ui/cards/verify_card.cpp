@@ -83,6 +83,7 @@ void verify_line(Ui& ui, const verify::Case& of, const VerifiedCase* one, float 
   const float height = ui.theme.px(verify_line_at_1), mark = ui.theme.px(verify_mark_at_1);
   ImGui::PushID(of.name.data());
   ImGui::Dummy({width, height});
+  if (!ImGui::IsItemVisible()) return ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) {
     draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, c.field, ui.theme.px(4));

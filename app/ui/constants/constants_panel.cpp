@@ -167,7 +167,8 @@ void pins_row(Ui& ui) {
     const Pins& pins = ui.session.requested_preset().pins;
     const bool open = begin_combo(ui, "##pins", pins_text(pins).c_str(), width);
     if (!open) {
-      tooltip(ui, gui::item_id(), "Particles that never move.", "Right double-click a particle to pin or unpin it");
+      tooltip(ui, gui::item_id(), "Particles that forces do not move.",
+              "Right double-click a particle to pin or unpin it");
       return;
     }
     for (Pins::Mode mode : {Pins::Mode::none, Pins::Mode::top_row, Pins::Mode::top_corners, Pins::Mode::four_corners,
@@ -182,7 +183,7 @@ void pins_row(Ui& ui) {
   if (const std::size_t motions = ui.session.requested_preset().pins.motions.size(); motions > 0)
     labeled_row(ui, "pins move", [&](float) {
       ImGui::TextUnformatted((std::to_string(motions) + (motions == 1 ? " motion" : " motions")).c_str());
-      tooltip(ui, gui::item_id(), "Pins follow paths or turn, as pin_motions in the preset's file says.");
+      tooltip(ui, gui::item_id(), "Paths and turns of pins, from pin_motions in the preset's file.");
     });
 }
 
@@ -223,7 +224,7 @@ void fabric_row(Ui& ui) {
     const float side = ui.theme.px(30);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({lo.x + width - side, lo.y});
-    if (quiet_button(ui, "fabric_units", *shown ? icon::close : icon::down, *shown ? "hide" : "edit",
+    if (quiet_button(ui, "fabric_units", *shown ? icon::down : icon::left, *shown ? "hide" : "edit",
                      *shown ? "Hide the fabric's quantities" : "Change the fabric in these units"))
       *shown = !*shown;
     ImGui::SetCursorScreenPos(lo);
