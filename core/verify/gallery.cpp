@@ -55,11 +55,17 @@ Outcome measure(const Case& of, const Conditions& conditions) {
 }
 
 Preset quiet_cloth(int rows, int columns, std::string_view integrator) {
+  Preset preset = bending_cloth(rows, columns, integrator);
+  preset.k_b = 0;
+  return preset;
+}
+
+Preset bending_cloth(int rows, int columns, std::string_view integrator) {
   Preset preset;
   preset.rows = rows, preset.columns = columns;
   preset.integrator = integrator;
   preset.precision = Precision::double_;
-  preset.g = preset.k_b = preset.k_d = 0;
+  preset.g = preset.k_d = 0;
   preset.tilt_deg = 90;
   preset.pins.mode = Pins::Mode::none;
   return preset;

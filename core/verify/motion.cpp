@@ -238,8 +238,8 @@ glm::dvec3 angular_momentum(Simulation& simulation, double m) {
 
 void free_momentum(Trial& trial) {
   for (const Scheme& method : schemes()) {
-    Preset preset = quiet_cloth(6, 7, method.name);
-    preset.g = g, preset.k_b = 5, preset.k_d = 0.002, preset.dt = 1e-4;
+    Preset preset = bending_cloth(6, 7, method.name);
+    preset.g = g, preset.k_d = 0.002, preset.dt = 1e-4;
     Simulation simulation = trial.start(preset);
     simulation.load(crumpled(preset));
     const glm::dvec3 before = momentum(simulation, preset.m);
@@ -254,8 +254,8 @@ void free_momentum(Trial& trial) {
 
 void free_angular_momentum(Trial& trial) {
   for (const char* method : {"velocity_verlet", "verlet", "implicit_midpoint"}) {
-    Preset preset = quiet_cloth(6, 7, method);
-    preset.k_b = 5, preset.dt = 1e-4;
+    Preset preset = bending_cloth(6, 7, method);
+    preset.dt = 1e-4;
     Simulation simulation = trial.start(preset);
     simulation.load(crumpled(preset));
     const glm::dvec3 before = angular_momentum(simulation, preset.m);

@@ -49,8 +49,8 @@ void hung_beads(Trial& trial) {
 
 void weight_on_pins(Trial& trial) {
   for (const Pins::Mode pins : {Pins::Mode::top_corners, Pins::Mode::top_row, Pins::Mode::four_corners}) {
-    Preset preset = quiet_cloth(9, 9, "implicit_euler");
-    preset.g = g, preset.k_b = 5, preset.k_d = 0.002, preset.tilt_deg = 85, preset.dt = 0.02;
+    Preset preset = bending_cloth(9, 9, "implicit_euler");
+    preset.g = g, preset.k_d = 0.002, preset.tilt_deg = 85, preset.dt = 0.02;
     preset.pins.mode = pins;
     Simulation simulation = trial.start(preset);
     trial.advance(simulation, 3000);

@@ -16,6 +16,8 @@ inline constexpr double g = 9.82;  ///< m/s²
 
 /// A cloth in double that nothing moves: without gravity, bending, damping and pins, hanging straight down.
 Preset quiet_cloth(int rows, int columns, std::string_view integrator);
+/// The same with the bending springs that presets have.
+Preset bending_cloth(int rows, int columns, std::string_view integrator);
 /// A mass on a spring in double, without gravity and damping: 0.1 kg on 40 N/m, released 0.1 m above its place.
 Preset quiet_weight(std::string_view integrator);
 

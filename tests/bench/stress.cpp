@@ -15,6 +15,7 @@ namespace {
 constexpr double longest_factor = 1000;      // docs/model.md, "Diverged"
 constexpr double most_particle_steps = 4e6;  // of a case, times the sweeps of a step
 constexpr double most_cg_products = 1e7;     // particles times steps of conjugate gradients, for implicit methods
+constexpr double most_seconds = 20;          // of processor time: one solve that fails may take minutes
 constexpr int most_steps_of_case = 4000, looks = 12;
 
 bool finite(double a) {
@@ -43,6 +44,8 @@ class StressRun {
     const std::string wrong = check_preset(result_.preset);
     if (!wrong.empty()) return fail("the random preset is not valid: " + wrong);
     simulation_.emplace(result_.preset, result_.threads);
+    const double end = thread_seconds() + most_seconds;
+    simulation_->stop_when([end] { return thread_seconds() > end; });
     for (int look = 0; look < looks && left() > 0 && result_.status == StressStatus::bounded; ++look) {
       if (look > 0 && random_.chance(0.3)) edit();
       if (!advance(std::max(1, int(left() / (looks - look))))) break;
@@ -105,7 +108,7 @@ class StressRun {
         if (result_.status == StressStatus::bounded) result_.status = StressStatus::diverged;
         return false;
       }
-      if (products_ > most_cg_products || work_ > most_particle_steps) return false;
+      if (part.stopped || products_ > most_cg_products || work_ > most_particle_steps) return false;
     }
     return true;
   }

@@ -46,7 +46,7 @@ struct Feature {
 constexpr Feature features[] = {
     {"all steps", "Time for the motion, including the features below, down to the ledger.",
      [](const Ui&) { return true; }, Spent::frame, Part::simulate},
-    {"bending", "Springs to every second particle: on if k_b > 0.", nullptr, Spent::step},
+    {"bending", "Springs to every second particle: on if their constant is above 0.", nullptr, Spent::step},
     {"rigidity", "Constants of springs that B and twist change: on if B > 0.", nullptr, Spent::step},
     {"curl", "On if κ_warp or κ_weft is not 0, and B > 0.", nullptr, Spent::step},
     {"damping", "On if k_d > 0.", nullptr, Spent::step},

@@ -121,8 +121,10 @@ void Band<R, Present>::point(PairTask<R>& t, const Tears& tears, int i, int x_ro
   for (int n = 0; n < 4; ++n) t.f[n] = force_row(i + n, 0);
   t.rows_below = cloth_.lattice.rows - 1 - i;
   t.whole = has(part::tearing) ? tears.row(i) : nullptr;
-  for (const int row : {0, 1}) t.linear[row] = cloth_.springs.row(std::min(i + row, cloth_.lattice.rows - 1));
-  assert((features_ & unsigned(linear)) == 0 || !cloth_.springs.empty());  // whoever sweeps has followed them
+  if ((features_ & unsigned(linear)) != 0) {
+    assert(!cloth_.springs.empty());  // whoever sweeps has followed them
+    for (const int row : {0, 1}) t.linear[row] = cloth_.springs.row(std::min(i + row, cloth_.lattice.rows - 1));
+  }
   for (const int row : {0, 1})
     t.fixed[row] = has(part::pins) && i + row < cloth_.lattice.rows && cloth_.has_fixed(i + row)
                        ? cloth_.fixed.data() + std::size_t(i + row) * cloth_.lattice.columns
@@ -174,9 +176,11 @@ void Band<R, Present>::forces_on_pair(PairTask<R>& t, const Tears& tears, int i,
   }
   t.update = update;
   const auto& sweeps = cloth_.sweeps.sweep[features_];
-  if (curl_.acts()) curl_pair(t, tears, i);
-  (update == Update::displacement ? sweeps.displacement : sweeps.other)(t);
-  if (curl_.acts()) pass_on_curl(t);
+  const auto sweep = update == Update::displacement ? sweeps.displacement : sweeps.other;
+  if (!curl_.acts()) return sweep(t);
+  curl_pair(t, tears, i);
+  sweep(t);
+  pass_on_curl(t);
 }
 
 /// The force on the hand's particle, if it is in this row.

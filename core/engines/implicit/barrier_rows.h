@@ -11,7 +11,7 @@ namespace tyglab::implicit {
 
 struct BarrierConstants {
   std::array<double, stretch_directions> stretch;  ///< k h²/m of springs by direction, above 0
-  double bend, damping;                            ///< k_b h²/m and k_d h/m
+  double bend, damping;                            ///< h²/m times the constant of bending springs, and k_d h/m
   double L;                                        ///< m
 };
 
