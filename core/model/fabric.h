@@ -47,8 +47,8 @@ std::optional<FabricProblem> set_fabric(Preset& preset, const FabricValues& valu
 /// is, infinity without weight.
 double drape_length(double B, double mass, double g);
 
-/// The preset as a cloth of that fabric: m, B, k_warp, k_weft and k_shear by its spacing L, without bending springs. k_s, k_d and
-/// dt stay.
+/// The preset as a cloth of that fabric: m, B, k_warp, k_weft and k_shear by its spacing L, without bending springs.
+/// k_s, k_d and dt stay.
 Preset with_fabric(Preset preset, const Fabric& fabric);
 /// Whether with_fabric would change nothing.
 bool is_fabric(const Preset& preset, const Fabric& fabric);

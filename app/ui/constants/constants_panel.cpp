@@ -203,8 +203,9 @@ void fabric_row(Ui& ui) {
     const std::string shown(chosen == fabrics().end() ? "choose" : chosen->name);
     if (!begin_combo(ui, "##fabric", shown.c_str(), width)) {
       tooltip(ui, gui::item_id(),
-              chosen == fabrics().end() ? "Sets m, B, k_warp, k_weft and k_shear to those of a fabric; bending springs off."
-                                        : fabric_words(*chosen, now.g),
+              chosen == fabrics().end()
+                  ? "Sets m, B, k_warp, k_weft and k_shear to those of a fabric; bending springs off."
+                  : fabric_words(*chosen, now.g),
               std::string(chosen == fabrics().end() ? "" : chosen->source));
       return;
     }

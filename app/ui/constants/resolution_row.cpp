@@ -112,7 +112,8 @@ void answer_resolution(Ui& ui, bool same_size) {
 void resolution_row(Ui& ui) {
   const std::string tip =
       "Makes the lattice finer or coarser and keeps the size, mass and stretch behavior: R−1 and C−1 times q, L/q, "
-      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding decreases as the cloth gets finer, since the constant of bending springs stays. "
+      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding decreases as the cloth gets finer, since the constant "
+      "of bending springs stays. "
       "Tears are repaired." +
       hangs_by_points(ui.session.requested_preset());
   const auto scale = [&](double q) { ui.session.propose(with_resolution(ui.session.requested_preset(), q)); };
