@@ -390,17 +390,27 @@ INLINE void slide(global const Body* body, BODY_REAL3 n, BODY_REAL press, BODY_R
   const BODY_REAL impact = fmin(fmax(-outward, (BODY_REAL)(0)), all), speed = sqrt(dot(u, u));
   const BODY_REAL kept = speed > 0 ? fmax((BODY_REAL)(0), 1 - body->friction * impact / speed) : (BODY_REAL)(0);
   const BODY_REAL3 begin = kept * u, there = on_path(f->path, left);
-  BODY_REAL pressed = all - impact;
+  // Seen from a body that turns, Coriolis forces follow what the body changes in the velocity: impacts at once, the rest
+  // little by little.
+  const BODY_REAL3 spin = vector_of(body->spin);
+  const BODY_REAL3 turning = -cross(spin, (all + impact) * n + (BODY_REAL)(2) * (begin - u));
+  a += turning - dot(turning, n) * n;
+  BODY_REAL pressed = fmax((BODY_REAL)(0), all - impact - left * dot(turning, n));
   BODY_REAL3 moved, end = rubbed(begin, a, left, body->friction * pressed, body->friction * press, &moved), m = n;
   const BODY_REAL3 face = into(body, n, time), reached = f->x + moved + (f->path.p - there);
   const int off = beyond_edge(body, local_at(body, reached, time), face), bends = shape_curved(body, face) && !off;
-  if (bends) {
-    // Once more with the means of both ends, between which the surface turns.
-    m = normal_at(body, reached, time);
-    const BODY_REAL3 along = f->path.a - dot(f->path.a, m) * m;
-    const BODY_REAL press_then = -dot(f->path.a, m) - turn_at(body, reached, m, transported(end, n, m), time);
-    a = (BODY_REAL)(0.5f) * (a + transported(along, m, n));
-    pressed = fmax((BODY_REAL)(0), pressed + (left / 2) * (press_then - press));
+  if (bends || body->moves) {
+    // Once more with the means of both ends, between which the surface turns, and with the friction's Coriolis force.
+    const BODY_REAL3 rubbing = dot(end, end) > 0 ? -cross(spin, end - begin - left * a) : VECTOR(0, 0, 0);
+    if (bends) {
+      m = normal_at(body, reached, time);
+      const BODY_REAL3 along = f->path.a - dot(f->path.a, m) * m + turning - dot(turning, n) * n;
+      const BODY_REAL press_then = -dot(f->path.a, m) - turn_at(body, reached, m, transported(end, n, m), time);
+      a = (BODY_REAL)(0.5f) * (a + transported(along, m, n));
+      pressed += (left / 2) * (press_then - press);
+    }
+    a += rubbing - dot(rubbing, n) * n;
+    pressed = fmax((BODY_REAL)(0), pressed - left * dot(rubbing, n));
     end = rubbed(begin, a, left, body->friction * pressed, body->friction * press, &moved);
   }
   f->x += moved + (f->path.p - there);

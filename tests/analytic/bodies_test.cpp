@@ -183,6 +183,33 @@ TEST_CASE("a body that is dragged has the velocity of the drag, and none when it
   }
 }
 
+/// Where a particle is that has slid on a sphere for 0.4 s, which spins.
+glm::dvec3 slid(const std::string& integrator, double dt, double spin, double friction) {
+  const double at = 0.1;
+  Preset preset = particle(integrator, {0.5 * std::sin(at), 0.5 * std::cos(at), 0}, {});
+  preset.g = 9.82, preset.dt = dt;
+  Body body;
+  body.c = {0, 0, 0}, body.r = 0.5, body.spin = {0, spin, 0}, body.friction = friction;
+  preset.bodies = {body};
+  Simulation simulation(preset);
+  simulation.advance(int(std::lround(0.4 / dt)));
+  return simulation.position(0, 0);
+}
+
+TEST_CASE("a sphere that spins without friction is one at rest, and friction on it keeps order 2") {
+  for (const char* integrator : {"verlet", "rk4"}) {
+    const glm::dvec3 rests = slid(integrator, 1e-3, 0, 0);
+    CHECK(glm::distance(slid(integrator, 1e-3, 20, 0), rests) < 1e-4);
+    CHECK(glm::distance(slid(integrator, 5e-4, 20, 0), slid(integrator, 5e-4, 0, 0)) < 3e-5);
+    for (const double friction : {0.05, 0.5}) {
+      const glm::dvec3 coarse = slid(integrator, 2e-3, 20, friction), middle = slid(integrator, 1e-3, 20, friction),
+                       fine = slid(integrator, 5e-4, 20, friction);
+      CHECK(glm::distance(coarse, middle) > 3 * glm::distance(middle, fine));
+      CHECK(glm::distance(fine, rests) > 1e-3);
+    }
+  }
+}
+
 TEST_CASE("a body that spins is turned by angles about x, y and z as much as it has spun") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-1, 1);
