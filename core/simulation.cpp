@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/cloth/state.h"
+#include "core/contact/crossings.h"
+#include "core/contact/self_contact.h"
 #include "core/engines/still_engine.h"
 #include "core/forces/force.h"
 #include "core/integrators/scheme.h"
@@ -219,6 +221,12 @@ void Simulation::apply(const Edit& edit) {
 /// What the present arrays take. All that needs memory comes first.
 void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
+  // The guard keeps apart what is apart.
+  if (guards_itself(next) && !guards_itself(preset_))
+    if (const Crossings crossings = count_crossings(read().x, tears_); crossings.pairs > 0)
+      throw PresetError("contact.self: guard: the cloth crosses itself now, in " + grouped(crossings.pairs) +
+                        (crossings.pairs == 1 ? " pair" : " pairs") +
+                        " of triangles, and a guard does not part them; restart the scene, or use repel");
   const EffectSet changed = changes(preset_, next);
   const bool moves = !changed.within(motionless) || pushed_until_, pins = changed.touches(Effect::pins);
   // The wind of the coming step is set when the step begins, or by an edit of what it depends on.

@@ -177,7 +177,9 @@ class Simulation {
   bool restarts(EffectSet changed) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins();
-  glm::dvec3 velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const;
+  ForcesAmong forces_among_stored() const;
+  glm::dvec3 velocity_at(const Neighborhood& near, const ForcesAmong& among, const StoredParticle& stored, int i,
+                         int j) const;
   void change(const Preset& preset);
   void restart_untouched(const Preset& preset);
   void grab(const edit::Grab& edit);

@@ -26,10 +26,27 @@ State Simulation::read_raw() {
   return state;
 }
 
+/// Forces between particles that are near in space, at the present positions.
+ForcesAmong Simulation::forces_among_stored() const {
+  if (!force::self.on(acting())) return {};
+  State all;
+  all.x.resize(std::size_t(lattice_.size())), all.v.resize(std::size_t(lattice_.size()));
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int j = 0; j < lattice_.columns; ++j) {
+      const StoredParticle stored = engine_->stored(i, j);
+      const std::size_t p = std::size_t(i) * lattice_.columns + std::size_t(j);
+      all.x.x[p] = stored.x.x, all.x.y[p] = stored.x.y, all.x.z[p] = stored.x.z;
+      all.v.x[p] = stored.v_seen.x, all.v.y[p] = stored.v_seen.y, all.v.z[p] = stored.v_seen.z;
+    }
+  return tyglab::forces_among(acting(), tears_, all);
+}
+
 /// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
-glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const {
+glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const ForcesAmong& among, const StoredParticle& stored,
+                                   int i, int j) const {
   if (stored.lag == 0 || pinned(i, j) || held_.particle == i * lattice_.columns + j) return stored.v;
-  const ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
+  ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
+  among.add_to(forces, std::size_t(i) * lattice_.columns + std::size_t(j));
   return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
 }
 
@@ -46,9 +63,11 @@ ParticleReadout Simulation::particle(int i, int j) const {
     near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
   });
   Neighborhood now = near;
-  visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
-  const ParticleForces forces = forces_on_particle(acting(), tears_, now, i, j);
+  const ForcesAmong among = forces_among_stored();
+  visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, among, engine_->stored(ni, nj), ni, nj); });
+  ParticleForces forces = forces_on_particle(acting(), tears_, now, i, j);
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
+  among.add_to(forces, p);
   ParticleReadout out;
   out.forces = by_key(forces);
   out.pinned = pinned(i, j);
@@ -65,10 +84,13 @@ ParticleReadout Simulation::particle(int i, int j) const {
 
 ForceSummary Simulation::forces(Reduction reduction) {
   const State& state = read();
+  const ForcesAmong among = forces_among(acting(), tears_, state);
   ForceSummary all;
   for (int i = 0; i < lattice_.rows; ++i)
     for (int j = 0; j < lattice_.columns; ++j) {
-      const auto on = by_key(forces_on_particle(acting(), tears_, state, i, j));
+      ParticleForces forces = forces_on_particle(acting(), tears_, state, i, j);
+      among.add_to(forces, std::size_t(i) * lattice_.columns + std::size_t(j));
+      const auto on = by_key(forces);
       for (std::size_t n = 0; n < on.values.size(); ++n) {
         const double size = glm::length(on.values[n]);
         all.values[n] = reduction == Reduction::sum ? all.values[n] + size : std::max(all.values[n], size);

@@ -8,9 +8,9 @@
 namespace tyglab {
 
 Wants& Wants::operator|=(const Wants& other) {
-  for (const auto want :
-       {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings, &Wants::settings_kept, &Wants::map,
-        &Wants::verification, &Wants::ledger, &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
+  for (const auto want : {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings,
+                          &Wants::settings_kept, &Wants::map, &Wants::crossings, &Wants::verification, &Wants::ledger,
+                          &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
     this->*want |= other.*want;
   return *this;
 }
@@ -24,6 +24,7 @@ void Studies::update(const Wants& wants, StudyMoment& moment) {
   else if (!wants.settings_kept)
     settings.drop();
   wants.map ? map.poll(moment) : map.drop();
+  wants.crossings ? crossings.poll(moment) : crossings.drop();
   wants.verification ? verification.poll(moment) : verification.drop();
 }
 

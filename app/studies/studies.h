@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "app/studies/accuracy_watch.h"
+#include "app/studies/crossing_watch.h"
 #include "app/studies/job.h"
 #include "app/studies/map_watch.h"
 #include "app/studies/moment.h"
@@ -75,6 +76,7 @@ struct Wants {
   bool settings = false;                                ///< settings for an error
   bool settings_kept = false;                           ///< a search for them that was asked for goes on out of sight
   bool map = false;                                     ///< stiffness against dt
+  bool crossings = false;                               ///< triangles of the cloth that cross each other
   bool verification = false;                            ///< the gallery of exact answers, while its card is open
   bool ledger = false;                                  ///< where energy comes from and goes
   bool step = false;                                    ///< the picked particle's next step, written out
@@ -89,6 +91,7 @@ struct Studies {
   ConvergenceWatch convergence;
   SettingsWatch settings;
   MapWatch map;
+  CrossingWatch crossings;
   VerifyWatch verification;
   EngineSearch engine;
   DeviceSearch devices;

@@ -25,9 +25,16 @@ class Reader {
     for_each_stencil(p_, [&](const Force& force, const Stencil& stencil) {
       if (!by_rows(force)) add(force, stencil, sum);
     });
+    const ForcesAmong among = forces_among(p_, tears_, state_);
+    for (const Force* force : force::all) {
+      const std::vector<glm::dvec3>& F = among.forces[*force];
+      if (force->conserves) sum.energy.of[*force] += among.energy[*force];
+      for (std::size_t n = 0; !force->conserves && n < F.size(); ++n) sum.power.of[*force] += glm::dot(F[n], v(n));
+    }
     const auto drive = [&](int particle, const glm::dvec3& velocity) {
-      const ParticleForces f =
+      ParticleForces f =
           forces_on_particle(p_, tears_, state_, particle / lattice_.columns, particle % lattice_.columns);
+      among.add_to(f, std::size_t(particle));
       sum.power.hand -= glm::dot(f.F_int() + f.F_ext(), velocity);
     };
     if (held.particle >= 0) drive(held.particle, held.velocity);

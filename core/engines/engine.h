@@ -194,6 +194,8 @@ class Engine {
   /// Upper bound of Σ |v|² + 2 E/m over all particles and springs, from everything that has given energy to the motion
   /// (MotionLimit), m²/s²; infinity if it is unknown.
   virtual double given_squared() const { return std::numeric_limits<double>::infinity(); }
+  /// Particles whose way the guard of contact with itself has cut short, summed over steps.
+  virtual std::int64_t held_back() const { return 0; }
   /// Work of a method that chooses its own steps within dt; all zero for others.
   virtual InnerSteps inner_steps() const = 0;
   /// The parts of a step that the present scene needs, and those that are skipped.

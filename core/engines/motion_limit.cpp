@@ -62,7 +62,9 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   const double at_hand = std::sqrt(sum_of(&Force::at_particle, p) / p.m);
   acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind + air) + at_hand * hand_speed;
   // A body or pins that move may throw the cloth about: what energy that is no formula says.
-  if (any_moves(p.bodies) || !p.pins.motions.empty()) acceleration_ = std::numeric_limits<double>::infinity();
+  // Neither is the energy of layers one that it measures.
+  if (any_moves(p.bodies) || !p.pins.motions.empty() || force::self.on(p))
+    acceleration_ = std::numeric_limits<double>::infinity();
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
   fastest_mode_ = std::sqrt(sum_of(&Force::largest_eigenvalue, p) / p.m);
   reach_squared_ = reach_squared(p, lattice);

@@ -75,6 +75,11 @@ struct Force {
   std::span<const Stencil> (*stencils)(const Preset&);
   void (*act)(const Preset&, const Stencil&, const Points&, ForceAction&);
 
+  /// For a force between particles that are near in space, which has no stencils: adds it at positions x (m) and
+  /// velocities v (m/s) to F (N), and returns its energy, J.
+  double (*among)(const Preset&, const Tears&, std::span<const glm::dvec3> x, std::span<const glm::dvec3> v,
+                  std::span<glm::dvec3> F) = nullptr;
+
   // Forces with a potential φ(|d|), of which those with bounds that are not of that kind have only the last three:
   Potential (*potential)(const Preset&, const Stencil&, double d_squared) = nullptr;
   /// κ, N/m, where φ = ½κ|d|² and Σ w = 0: a force that is linear in positions. All engines have it at once, as springs
@@ -94,9 +99,9 @@ struct Force {
 };
 
 namespace force {
-extern const Force stretch, bend, rigidity, curl, damping, gravity, wind, air;
+extern const Force stretch, bend, rigidity, curl, damping, self, slip, gravity, wind, air;
 /// In the order of the report, and what it does not have beside what is like it.
-inline constexpr std::array all{&stretch, &bend, &rigidity, &curl, &damping, &gravity, &wind, &air};
+inline constexpr std::array all{&stretch, &bend, &rigidity, &curl, &damping, &self, &slip, &gravity, &wind, &air};
 }  // namespace force
 
 /// Where a force stands in the table.
@@ -206,6 +211,11 @@ inline SpringConstants spring_constants(const Preset& preset) {
 }
 inline double spring_constant(const Preset& preset, const Direction& to) {
   return spring_constants(preset).of(to);
+}
+
+/// The constant of the force between layers of the cloth, N/m.
+inline double layer_constant(const Preset& preset) {
+  return spring_constants(preset).largest();
 }
 
 /// Whether springs break in the scene once they are overloaded.

@@ -73,6 +73,20 @@ ForcesByKey<glm::dvec3> by_key(const ParticleForces& on) {
   return all;
 }
 
+ForcesAmong forces_among(const Preset& p, const Tears& tears, const State& state) {
+  ForcesAmong found;
+  std::vector<glm::dvec3> x, v;
+  for (const Force* force : force::all) {
+    if (force->among == nullptr || !force->on(p)) continue;
+    for (std::size_t n = x.size(); n < std::size_t(tears.lattice().size()); ++n)
+      x.emplace_back(state.x.x[n], state.x.y[n], state.x.z[n]),
+          v.emplace_back(state.v.x[n], state.v.y[n], state.v.z[n]);
+    found.forces[*force].assign(x.size(), glm::dvec3(0));
+    found.energy[*force] = force->among(p, tears, x, v, found.forces[*force]);
+  }
+  return found;
+}
+
 ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const State& state, int i, int j) {
   return forces_at(p, tears, StateLook{state, tears.lattice().columns}, i, j);
 }

@@ -58,7 +58,18 @@ struct StencilForce {
   glm::dvec3 F{0};       ///< N
 };
 
-/// `state`: dense, with velocities at the time of the positions.
+/// What forces between particles that are near in space (Force::among) do to all of them.
+struct ForcesAmong {
+  PerForce<double> energy;                   ///< J
+  PerForce<std::vector<glm::dvec3>> forces;  ///< N, at i·columns + j; empty: the scene does not have the force
+  /// Adds those on a particle.
+  void add_to(ParticleForces& on, std::size_t particle) const {
+    for (const Force* force : force::all)
+      if (!forces[*force].empty()) on[*force] += forces[*force][particle];
+  }
+};
+ForcesAmong forces_among(const Preset& preset, const Tears& tears, const State& state);
+/// `state`: dense, with velocities at the time of the positions. Without those of forces_among().
 ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const State& state, int i, int j);
 
 /// The surroundings of one particle, three rows and columns in each direction: enough for the forces on it and on its

@@ -140,6 +140,10 @@ inline bool is_stabilized(const Scheme& scheme) {
 inline bool projects(const Scheme& scheme) {
   return scheme.sweeps.back().projects;
 }
+/// Whether it takes the cloth's contact with itself: its forces are those at known positions.
+inline bool takes_self_contact(const Scheme& scheme) {
+  return !is_implicit(scheme) && !projects(scheme);
+}
 /// Whether only the damping is implicit: a linear system whose matrix does not depend on the motion.
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/contact/self_contact.h"
 #include "core/integrators/scheme.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
@@ -49,10 +50,12 @@ std::string value_problem(const Row<T>& row, const T& object) {
           if (row.key == "integrator" && !is_integrator(value))
             return "\"" + excerpt(value) + "\" is not an integrator" + did_you_mean(value, integrator_names(), ".") +
                    " Known: " + joined(integrator_names());
-          if (row.key == "contact" &&
-              std::find(contact_names.begin(), contact_names.end(), value) == contact_names.end())
-            return "\"" + excerpt(value) + "\" is not known" + did_you_mean(value, contact_names, ".") +
-                   " Allowed: " + joined(contact_names);
+          const std::span<const std::string_view> allowed = row.key == "contact" ? std::span(contact_names)
+                                                            : row.key == "self"  ? std::span(self_names)
+                                                                                 : std::span<const std::string_view>();
+          if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+            return "\"" + excerpt(value) + "\" is not known" + did_you_mean(value, allowed, ".") +
+                   " Allowed: " + joined(allowed);
           return {};
         } else {
           return is_absent(row, double(value)) ? std::string() : range_problem(row, double(value));
@@ -101,6 +104,22 @@ std::string path_problem(const Body& body) {
   if (!body.path.empty() && body.velocity != glm::dvec3(0))
     return "a body follows its path or has a velocity, not both; remove one";
   return path_problem(body.path);
+}
+
+std::string self_contact_problem(const Preset& p) {
+  if (!touches_itself(p)) return {};
+  if (const double most = largest_thickness(p.L); contact_thickness(p) > most)
+    return "contact.thickness: " + quantity(p.thickness, "m") +
+           " is too thick for a spacing of L = " + quantity(p.L, "m") + "; at most " + quantity(most, "m") +
+           ", or a coarser cloth";
+  if (!takes_self_contact(scheme(p.integrator))) {
+    std::vector<std::string_view> can;
+    for (const Scheme& method : schemes())
+      if (takes_self_contact(method)) can.push_back(method.name);
+    return "contact.self: " + p.integrator +
+           " does not compute contact of the cloth with itself; methods that do: " + joined(can);
+  }
+  return {};
 }
 
 /// What is wrong with a motion of pins.
@@ -556,7 +575,7 @@ std::string check_preset(const Preset& preset) {
   if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
     return "cloth.pins: " + problem;
   if (const auto problem = motions_problem(preset); !problem.empty()) return "cloth.pin_motions: " + problem;
-  return {};
+  return self_contact_problem(preset);
 }
 
 namespace {

@@ -205,6 +205,18 @@ const auto rows = std::to_array<PresetRow>({
      &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "A larger force releases the held particle.", true,
      Kind::cloth, true},
 
+    {"contact", "self", "", "Contact of the cloth with itself", "Självkontakt", "", &Preset::self, 0, 0, linear, force,
+     "",
+     "off: the cloth passes through itself; repel: near layers repel each other, which promises nothing; guard: a "
+     "bound "
+     "of each step's motion also keeps layers from crossing.",
+     false, Kind::cloth, true},
+    {"contact", "thickness", "r_c", "Thickness in contact", "Kontakttjocklek", "m", &Preset::thickness, 0, 100,
+     logarithmic, force, "", "Layers begin to repel each other at twice this distance; 0: 0.15 L.", true, Kind::cloth,
+     true},
+    {"contact", "friction", "mu_c", "Friction between layers", "Friktion mellan lager", "", &Preset::self_friction, 0,
+     10, linear, force, "", "Coulomb friction between layers of the cloth.", true, Kind::cloth, true},
+
     {"solver", "integrator", "", "Integrator", "Approximationsmetod", "", &Preset::integrator, 0, 0, linear, integrator,
      "2.10", "Method that advances x and ẋ from one time step to the next."},
     {"solver", "dt", "dt", "Time step", "Tidssteg", "s", &Preset::dt, 1e-7, 1, logarithmic, dt, "2.10",
@@ -258,12 +270,16 @@ const auto variable_rows = std::to_array<Variable>({
     {"F_curl", "F_curl", "Force of the rest curvature", "Vilokrökningens kraft", "N", "",
      "What B does to curl the cloth to κ_warp and κ_weft."},
     {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
+    {"F_self", "F_self", "Force between layers", "Kraft mellan lager", "N", "",
+     "What keeps layers of the cloth apart that are near each other."},
+    {"F_slip", "F_slip", "Friction between layers", "Friktion mellan lager", "N", "",
+     "What acts against the slip of layers that touch."},
     {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downward."},
     {"F_wind", "F_wind", "Wind force", "Vindkraft", "N", "2.16", "Sum over the triangles at the particle."},
     {"F_air", "F_air", "Force of the air", "Luftens kraft", "N", "",
      "Drag and lift, a third of those on each triangle at the particle."},
     {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2",
-     "Forces between particles: F_s + F_b + F_B + F_curl + F_d."},
+     "Forces between particles: F_s + F_b + F_B + F_curl + F_d + F_self + F_slip."},
     {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind, air and the hand."},
     {"x", "x", "Position", "Position", "m", "2.4", "Position of the particle."},
     {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Velocity of the particle, at the time of its position."},
@@ -329,12 +345,13 @@ std::span<const PresetRow> notation() {
   return rows;
 }
 std::span<const Heading> headings() {
-  static const std::array<Heading, 7> list{{
+  static const std::array<Heading, 8> list{{
       {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
       {"Springs", "forces", {"k_s", "k_b", "B", "twist", "kappa_warp", "kappa_weft", "k_d", "k"}},
       {"Fabric", "", {"k_warp", "k_weft", "k_shear"}},
       {"Outer forces", "", {"g", "W", "air_density", "u", "C_N", "C_T", "gust", "gust_period"}},
       {"Tearing", "tearing", {"F_max", "F_release"}},
+      {"Self-contact", "contact", {"thickness", "friction"}},
       {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
       {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
   }};

@@ -107,6 +107,11 @@ struct Preset {
   double F_max = 0;      ///< 0: never
   double F_release = 0;  ///< 0: never
 
+  // contact of the cloth with itself
+  std::string self = "off";  ///< one of self_names (words.h)
+  double thickness = 0;      ///< half of the distance at which layers begin to repel each other, m; 0: 0.15 L
+  double self_friction = 0;  ///< Coulomb's μ between layers
+
   std::vector<Body> bodies;
 
   // solver

@@ -20,6 +20,8 @@ inline constexpr std::array<std::string_view, 2> precision_names{"float", "doubl
 /// Values of solver.contact: within the step, at its end (the report's rule), or in steps that end at each impact.
 inline constexpr std::array<std::string_view, 3> contact_names{"local", "step", "global"};
 /// As people call them.
+/// What keeps the cloth from passing through itself: nothing, a force, or that force and a bound of its motion.
+inline constexpr std::array<std::string_view, 3> self_names{"off", "repel", "guard"};
 inline constexpr std::array<const char*, contact_names.size()> contact_titles{"when met", "at end of step",
                                                                               "split step"};
 constexpr std::string_view name_of(Kind v) {
@@ -47,7 +49,7 @@ constexpr std::string_view title_of(EngineKind v) {
   return v == EngineKind::cpu ? "CPU" : v == EngineKind::opencl ? "OpenCL" : "plain";
 }
 /// Sections of a preset file.
-inline constexpr std::array<std::string_view, 6> section_names{"cloth",  "forces", "tearing",
+inline constexpr std::array<std::string_view, 7> section_names{"cloth",  "forces", "tearing", "contact",
                                                                "bodies", "solver", "view"};
 
 /// Shortest text that reads back as the same number; without an exponent where a person would write none.

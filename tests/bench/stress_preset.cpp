@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/analysis/frequency.h"
+#include "core/contact/self_contact.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
@@ -100,6 +101,13 @@ Body random_body(const Preset& p, StressRandom& random) {
   return body;
 }
 
+/// Of thicknesses that the spacing allows, where the method takes it.
+void choose_self_contact(Preset& p, StressRandom& random) {
+  if (!takes_self_contact(scheme(p.integrator)) || random.chance(0.75)) return;
+  p.self = random.chance(0.5) ? "repel" : "guard";
+  p.thickness = random.chance(0.5) ? 0 : largest_thickness(p.L) * random.decades(0.01, 1);
+}
+
 /// Round what the method can take, so that cases fall on both sides of it.
 void choose_dt(Preset& p, StressRandom& random) {
   const Mode fastest = any_configuration(p);
@@ -147,6 +155,7 @@ Preset random_preset(StressRandom& random, const std::string& integrator) {
   p.pins = random_pins(p, random);
   for (int n = std::max(0, random.below(6) - 2); n > 0; --n) p.bodies.push_back(random_body(p, random));
   p.contact = contact_names[std::size_t(random.below(int(contact_names.size())))];
+  choose_self_contact(p, random);
   choose_dt(p, random);
   if (p.kind == Kind::cloth && random.chance(0.15)) tear_apart(p, random);
   return p;

@@ -295,6 +295,22 @@ TEST_CASE("energy that errors of the method have added is said, with the ratio")
   CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["energy_over_given"] <= 1.02);
 }
 
+TEST_CASE("a cloth that has passed through itself is said, with the number of crossing triangles") {
+  const test::TemporaryFolder folder;
+  const auto run = [&](const std::string& preset) {
+    return good(folder.path(), {"run", preset, "--seconds", "1", "--json", "r.json"}).err;
+  };
+  const auto crossings = [&] { return nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["crossings"]; };
+  const std::string twisted = run("twist");
+  REQUIRE(crossings() > 1);
+  CHECK(twisted.find("The cloth passes through itself: " + std::to_string(crossings().get<int>()) +
+                     " pairs of triangles cross.") != std::string::npos);
+  CHECK(run("hanging").find("through itself") == std::string::npos);
+  CHECK(crossings() == 0);
+  test::tyglab(folder.path(), {"run", "explodes", "--json", "r.json"});
+  CHECK(crossings().is_null());
+}
+
 TEST_CASE("a cloth whose springs tear has diverged when its motion has more energy than anything gave it") {
   const test::TemporaryFolder folder;
   const auto run = test::tyglab(folder.path(), {"run", "hanging", "--seconds", "1", "--dt", "0.001", "--set",

@@ -42,7 +42,7 @@ std::vector<std::string> all_keys() {
   std::vector<std::string> keys = {
       "tyglab_preset", "kind",      "name",        "description", "cloth", "forces", "tearing", "bodies", "solver",
       "view",          "pins",      "engine",      "precision",   "shape", "",       "rowss",   "K_S",    "bodies[0]",
-      "k_s ",          "\\u006b_s", "pin_motions", "path",        "until", "fabric", "warp"};
+      "k_s ",          "\\u006b_s", "pin_motions", "path",        "until", "fabric", "warp",    "self",   "guard"};
   for (const PresetRow& row : notation()) keys.emplace_back(row.key);
   for (const BodyRow& row : body_notation()) keys.emplace_back(row.key);
   return keys;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/contact/self_contact.h"
 #include "core/engines/newton.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
@@ -122,6 +123,10 @@ Preset preset_of(Random& random, bool with_opencl) {
   if (random.below(2) == 0) preset.pins = pins(random, preset);
   if (random.below(3) == 0) add_bodies(random, preset);
   if (random.below(6) == 0) make_tear(random, preset);
+  if (random.below(8) == 0 && takes_self_contact(scheme(preset.integrator))) {
+    preset.self = self_names[1 + std::size_t(random.below(2))];
+    preset.thickness = random.below(2) == 0 ? 0 : random.uniform(0, largest_thickness(preset.L));
+  }
   preset.contact = contact_names[std::size_t(random.below(int(contact_names.size())))];
   if (with_opencl && random.below(50) == 0 && runs_on_opencl(scheme(preset.integrator)) &&
       missing_on_opencl(preset) == nullptr)
@@ -137,6 +142,7 @@ double visits_of_step(const Preset& p) {
   if (iterates(method)) sweeps *= p.iterations;
   if (is_implicit(method)) sweeps *= 30 + max_gradient_steps({p.rows, p.columns});
   if (chooses_steps(method)) sweeps *= 1e4;
+  if (p.self != "off") sweeps *= 1000;
   return particles * sweeps;
 }
 

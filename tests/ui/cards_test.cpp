@@ -11,6 +11,7 @@
 #include "app/ui/cards/cards.h"
 #include "app/ui/frame/frame.h"
 #include "core/analysis/convergence.h"
+#include "core/model/words.h"
 #include "tests/support/sanitized.h"
 #include "tests/ui/null_ui.h"
 
@@ -49,6 +50,19 @@ TEST_CASE("the other side of the accuracy card measures the order beside the fra
   window.click("plots.accuracy_ways.1");
   window.until([&] { return studies(window).accuracy.study().has_value(); }, "the errors to come back");
   CHECK_FALSE(study().has_value());
+}
+
+TEST_CASE("crossing triangles are counted while the performance card is open, and outlined") {
+  test::NullUi window({.preset = "bias"});
+  window.until([&] { return window.t() > 1; }, "the cloth to pass through itself");
+  window.pause();
+  window.frames(2);
+  CHECK_FALSE(studies(window).crossings.found().has_value());
+  window.find("performance card");
+  window.until([&] { return studies(window).crossings.found().has_value(); }, "the count");
+  CHECK(studies(window).crossings.found()->pairs > 100);
+  window.frames(2);
+  CHECK(window.drew(grouped(studies(window).crossings.found()->pairs)));
 }
 
 TEST_CASE("the stability card marks the cloth's fastest mode on the method's growth, and follows k_s") {

@@ -39,6 +39,7 @@ Preset scene(Kind kind, const std::string& integrator = "verlet") {
   preset.air_density = 1.2, preset.C_T = 0.1, preset.u = {0.5, 0.2, 1};
   preset.v_0 = {0.1, 0.2, 0.3}, preset.initial_stretch = 1.02, preset.pins.mode = Pins::Mode::top_corners;
   preset.W = {0, 1e-4, 2e-3}, preset.gust = 0.5, preset.gust_period = 0.05, preset.F_max = 0.4, preset.F_release = 1e3;
+  preset.thickness = 0.1 * preset.L, preset.self_friction = 0.2;
   preset.bodies.resize(1);
   preset.bodies[0].c = {0, 0.9, 0.05}, preset.bodies[0].r = 0.05;  // in the cloth's way
   return preset;
@@ -69,7 +70,12 @@ void change(std::vector<Body>& value) {
   value[0].r *= 0.9;
 }
 void change(std::string& value) {
-  value = value == "verlet" ? "rk4" : value == "rk4" ? "velocity_verlet" : value == "local" ? "step" : value + "2";
+  value = value == "verlet"  ? "rk4"
+          : value == "rk4"   ? "velocity_verlet"
+          : value == "local" ? "step"
+          : value == "off"   ? "repel"
+          : value == "repel" ? "guard"
+                             : value + "2";
 }
 
 /// The preset with another, allowed value of that field alone.
@@ -101,6 +107,7 @@ std::map<std::string, Said> expected() {
   add("L k_s k_warp k_weft k_shear k_b B twist kappa_warp kappa_weft W air_density u C_N C_T gust gust_period", force,
       unused);
   add("k", unused, force);
+  add("self thickness friction", force, unused);
   add("F_max F_release", tearing, unused);
   add("bodies", bodies, bodies);
   add("contact", bodies, bodies);
@@ -252,6 +259,10 @@ TEST_CASE("a simulation does what the effect of a field says, at its start and u
         if (field.key == "engine" && test::skipped_without_device()) continue;
         Preset preset = scene(kind);
         if (field.key == "engine") preset.B = 0;  // which OpenCL does not compute
+        // Parts that are near each other from the start.
+        const bool near = field.key == "self" || field.key == "thickness" || field.key == "friction";
+        if (near && kind == Kind::cloth) preset.initial_stretch = 0.25;
+        if (near && field.key != "self") preset.self = "repel";
         check_change(preset, changed(preset, field), steps);
       }
 }

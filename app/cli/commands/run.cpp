@@ -15,6 +15,7 @@
 #include "app/process/interrupt.h"
 #include "app/process/program_run.h"
 #include "core/analysis/pierced.h"
+#include "core/analysis/self_crossings.h"
 #include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
 #include "core/integrators/scheme.h"
@@ -277,9 +278,29 @@ Json inner_steps_json(const Simulation& simulation) {
           {"force_evaluations", inner.force_evaluations}};
 }
 
+/// What the end of a run is looked at for: what its last state tells of it.
+struct EndFindings {
+  double excess = 0;                   ///< of energy (Simulation::excess)
+  std::optional<Crossings> crossings;  ///< none after a divergence, and in haste
+};
+
+EndFindings findings_at_end(Simulation& simulation, bool in_haste) {
+  EndFindings findings;
+  if (in_haste) return findings;
+  findings.excess = simulation.excess();
+  CrossingLimits limits;
+  limits.tested = 30'000'000;  // seconds
+  if (!simulation.divergence()) findings.crossings = self_crossings(simulation, limits);
+  return findings;
+}
+
+Json crossings_json(const std::optional<Crossings>& crossings) {
+  return crossings && crossings->complete ? Json(crossings->pairs) : Json();
+}
+
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
-             double ns_per_particle_step, double excess, Json files) {
+             double ns_per_particle_step, const EndFindings& end, Json files) {
   const Preset& preset = simulation.preset();
   return {{"version", TYGLAB_VERSION},
           {"preset", scene.source.label},
@@ -305,10 +326,12 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"engine_choice", engine_choice_json(scene.engine_choice.get())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
+          {"held_back", simulation.engine().held_back()},
           {"energy", energy_json(simulation)},
-          {"energy_over_given", finite_json(excess)},
+          {"energy_over_given", finite_json(end.excess)},
           {"diverged", divergence_json(simulation.divergence())},
-          {"files", std::move(files)}};
+          {"files", std::move(files)},
+          {"crossings", crossings_json(end.crossings)}};
 }
 
 std::string number(double value, int digits) {
@@ -380,13 +403,13 @@ int run(const RunOptions& options) {
   const bool diverged = simulation.divergence().has_value();
   const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
   const bool in_haste = stepper.interrupted() && takes_long_to_show(simulation);
-  const double excess_at_end = in_haste ? 0 : simulation.excess();
+  const EndFindings end = findings_at_end(simulation, in_haste);
   const Json report = summary(simulation, scene,
                               diverged                ? "diverged"
                               : stepper.interrupted() ? "interrupted"
                                                       : "done",
-                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
-                              excess_at_end, outputs.finish(simulation, stepper.interrupted()));
+                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0, end,
+                              outputs.finish(simulation, stepper.interrupted()));
   std::string summary_name;
   if (!options.json.empty())
     summary_name = output_name(
@@ -399,7 +422,7 @@ int run(const RunOptions& options) {
                         : "The last state was left out, since a cloth of this size takes long to write.");
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
-  if (const std::string excess = energy_in_excess(excess_at_end, simulation.preset()); !excess.empty())
+  if (const std::string excess = energy_in_excess(end.excess, simulation.preset()); !excess.empty())
     std::cerr << "tyglab: " << excess << '\n';
   if (const std::string missed = solves_missed(simulation.engine().solves(), simulation.steps(), simulation.preset());
       !missed.empty())
@@ -411,6 +434,8 @@ int run(const RunOptions& options) {
               << " left inside a body, since bodies overlap; move them apart.\n";
   if (const std::string pierced = in_haste ? "" : pierced_in_words(simulation); !pierced.empty())
     std::cerr << "tyglab: " << pierced << '\n';
+  if (const std::string crossings = end.crossings ? crossings_in_words(*end.crossings) : ""; !crossings.empty())
+    std::cerr << "tyglab: " << crossings << '\n';
   if (stepper.interrupted())
     std::cerr
         << "tyglab: Interrupted; what was written so far has whole rows and frames, and no older file was replaced.\n";

@@ -8,8 +8,10 @@
 #include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "core/contact/self_contact.h"
 #include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -49,6 +51,7 @@ constexpr Feature features[] = {
     {"bending", "Springs to every second particle: on if their constant is above 0.", nullptr, Spent::step},
     {"rigidity", "Constants of springs that B and twist change: on if B > 0.", nullptr, Spent::step},
     {"curl", "On if κ_warp or κ_weft is not 0, and B > 0.", nullptr, Spent::step},
+    {"self", "Contact of the cloth with itself: on while parts are near each other.", nullptr, Spent::step},
     {"damping", "On if k_d > 0.", nullptr, Spent::step},
     {"wind", "On if W is not 0.", nullptr, Spent::step},
     {"air", "Drag and lift: on if ρ_air > 0.", nullptr, Spent::step},
@@ -76,6 +79,13 @@ constexpr Feature features[] = {
     {"shadow", "Redrawn when the picture changes.", [](const Ui& u) { return u.scene.view.shadows; }, Spent::frame,
      Part::shadow},
 };
+
+/// How many pairs of triangles cross, as far as that is known.
+std::string crossings_text(const Ui& ui) {
+  const std::optional<FoundCrossings>& found = ui.session.studies.crossings.found();
+  if (!found) return "–";
+  return (found->complete ? "" : "at least ") + grouped(found->pairs);
+}
 
 std::string text(const char* format, double value) {
   char buffer[64];
@@ -234,6 +244,14 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   facts.push_back({"steps per frame", std::to_string(ui.session.pacing.steps_per_frame())});
   facts.push_back({"whole frame", text("%.2f ms", ui.session.costs.recent_ms(Part::frame))});
   const std::string without = ui.scene.effects.words();
+  if (cloth(ui))
+    facts.push_back({"crossings", crossings_text(ui),
+                     "Pairs of triangles that cross or touch each other: the cloth passes through itself. They are "
+                     "outlined in the picture."});
+  if (guards_itself(ui.session.requested_preset()))
+    facts.push_back({"cut short by the guard", grouped(engine.held_back()) + " moves of particles",
+                     "The guard has shortened these moves so that layers do not cross. With a smaller dt it cuts less "
+                     "or nothing, and the motion has the accuracy of the method."});
   facts.push_back({"effects turned off", without.empty() ? "nothing" : without});
   const std::string& why = ui.session.costs.why_copied();
   facts.push_back({"positions are drawn from", drawn_from(ui.session.costs.vertex_path()),

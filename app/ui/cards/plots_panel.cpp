@@ -97,7 +97,7 @@ std::vector<Card> tool_cards(const Ui& ui) {
   if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<330>, &Wants::step});
   if (ui.plots.verification)
     cards.push_back({card_name::verification, verification_card, least_of<330>, &Wants::verification});
-  cards.push_back({card_name::performance, performance_card, performance_card_height});
+  cards.push_back({card_name::performance, performance_card, performance_card_height, &Wants::crossings});
   return cards;
 }
 

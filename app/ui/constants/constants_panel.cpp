@@ -195,6 +195,25 @@ std::string fabric_words(const Fabric& fabric, double g) {
 }
 
 /// The choice of a fabric, and what the present constants come to in the units in which fabrics are sold and measured.
+/// Whether the cloth meets itself.
+void self_row(Ui& ui) {
+  come_into_sight(ui, "self", row_columns(ui).height);
+  labeled_row(ui, "layers", [&](float width) {
+    const std::string now = ui.session.requested_preset().self;
+    const int chosen = int(std::find(self_names.begin(), self_names.end(), now) - self_names.begin());
+    constexpr std::array<const char*, self_names.size()> titles{"cross", "repel", "guard"};
+    if (const int k = segments(ui, "self", titles.data(), int(titles.size()), chosen, 11, width);
+        k >= 0 && k != chosen) {
+      Preset next = ui.session.requested_preset();
+      next.self = self_names[std::size_t(k)];
+      ui.session.propose(std::move(next));
+    }
+    tooltip(ui, gui::item_id(),
+            "Layers of the cloth pass through each other, repel each other when they are near, or are also kept apart "
+            "by a bound of each step's motion.");
+  });
+}
+
 void fabric_row(Ui& ui) {
   const Preset& now = ui.session.requested_preset();
   const auto chosen =
@@ -310,6 +329,7 @@ bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
   if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
   if (row.key == "iterations") return iterates(scheme(preset.integrator));
+  if ((row.key == "thickness" || row.key == "friction") && preset.self == "off") return false;
   if (row.key == "gust_period" && !gusts(preset)) return false;
   if ((row.key == "u" || row.key == "C_N" || row.key == "C_T") && preset.air_density == 0) return false;
   if ((row.key == "kappa_warp" || row.key == "kappa_weft") && preset.B == 0) return false;
@@ -336,12 +356,14 @@ void bring_into_sight(Ui& ui, std::string_view key) {
 void constants_sections(Ui& ui) {
   const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
   for (const Heading& wanted : headings()) {
-    if (empty(wanted, ui.session.requested_preset())) continue;
     const std::string_view name = wanted.name;
+    const bool has_own_row = cloth && name == "Self-contact";
+    if (!has_own_row && empty(wanted, ui.session.requested_preset())) continue;
     if (name == "Cloth" && (cloth || !ui.session.requested_preset().bodies.empty())) body_sections(ui);
     if (!section(ui, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
     if (name == "Integrator") integrator_row(ui);
     if (name == "Fabric") fabric_row(ui);
+    if (name == "Self-contact") self_row(ui);
     rows(ui, wanted);
     if (name == "Integrator") step_limit_row(ui), stability_row(ui);
     if (name == "Cloth" && cloth) resolution_row(ui), pins_row(ui);

@@ -8,6 +8,8 @@ CurveStyle curve_style(const Tokens& c, std::string_view key) {
   if (key == "F_B") return {c.green, LineStyle::dash_dot_dot, 1.8f};
   if (key == "F_curl") return {c.green, LineStyle::sparse_dots, 2.2f};
   if (key == "F_d") return {c.magenta, LineStyle::dotted, 2.2f};
+  if (key == "F_self") return {c.sky, LineStyle::long_dash, 1.8f};
+  if (key == "F_slip") return {c.sky, LineStyle::dotted, 2.2f};
   if (key == "F_g") return {c.yellow, LineStyle::long_dash, 1.8f};
   if (key == "F_wind") return {c.vermilion, LineStyle::dash_dot_dot, 1.8f};
   if (key == "F_air") return {c.vermilion, LineStyle::sparse_dots, 2.2f};

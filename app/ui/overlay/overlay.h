@@ -75,6 +75,8 @@ std::vector<Box> drawn_parts(Ui& ui);
 void knife_stroke(Ui& ui, ImDrawList& draw);
 /// After the first cut of all, how to pull instead and how to take it back.
 void first_cut_hint(Ui& ui, ImDrawList& draw);
+/// Outlines of triangles that cross each other, while they are counted.
+void crossing_triangles(Ui& ui, ImDrawList& draw);
 /// What a nick at the pointer would cut.
 void springs_to_cut(Ui& ui, ImDrawList& draw);
 

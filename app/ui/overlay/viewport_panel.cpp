@@ -155,7 +155,9 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     draw.ChannelsSetCurrent(fixed);
   }
   draw.ChannelsSetCurrent(arrows);
-  if (!bare) wind_overlay(ui, draw), picked_overlay(ui, draw), divergence_mark(ui, draw), ways_to_cloth(ui, draw);
+  if (!bare)
+    crossing_triangles(ui, draw), wind_overlay(ui, draw), picked_overlay(ui, draw), divergence_mark(ui, draw),
+        ways_to_cloth(ui, draw);
   draw.ChannelsMerge();
 }
 

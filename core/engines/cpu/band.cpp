@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <functional>
 #include <limits>
 
 #include "core/engines/cpu/row_update.h"
@@ -177,10 +178,20 @@ void Band<R, Present>::forces_on_pair(PairTask<R>& t, const Tears& tears, int i,
   t.update = update;
   const auto& sweeps = cloth_.sweeps.sweep[features_];
   const auto sweep = update == Update::displacement ? sweeps.displacement : sweeps.other;
+  if (cloth_.near_force != nullptr) add_near_force(t, i);
   if (!curl_.acts()) return sweep(t);
   curl_pair(t, tears, i);
   sweep(t);
   pass_on_curl(t);
+}
+
+/// The sweep subtracts what stands in the rows from the forces that it computes.
+template <class R, unsigned Present>
+void Band<R, Present>::add_near_force(const PairTask<R>& t, int i) {
+  for (int row = i; row < std::min(i + 2, cloth_.lattice.rows); ++row) {
+    const R* from = cloth_.near_force->row(row);
+    std::transform(t.f[row - i], t.f[row - i] + ring_.pitch(), from, t.f[row - i], std::minus<>());
+  }
 }
 
 /// The force on the hand's particle, if it is in this row.

@@ -89,9 +89,10 @@ struct Cloth {
   bool bodies_move = false;
   int seen_velocity = vector_v;  ///< vector that damping uses at the start of a step
   std::vector<Field> vectors;
-  std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row by row
-  std::vector<int> fixed_begin;     ///< index of each row's first among them
-  std::vector<std::uint8_t> fixed;  ///< 1 at i·columns + j if pinned or held; empty if none is
+  const Field* near_force = nullptr;  ///< what near layers add to the forces of the present sweep; null: nothing
+  std::vector<int> fixed_columns;     ///< columns of pinned and held particles, row by row
+  std::vector<int> fixed_begin;       ///< index of each row's first among them
+  std::vector<std::uint8_t> fixed;    ///< 1 at i·columns + j if pinned or held; empty if none is
   Held held;
 
   Field& vector(int number) {
@@ -171,6 +172,7 @@ class Band {
   void copy_rows(const ResolvedSweep& sweep, int first, int count, Halo& halo, int at);
   void begin_forces(PairTask<R>& task, const Tears& tears);
   void forces_on_pair(PairTask<R>& task, const Tears& tears, int i, Update update);
+  void add_near_force(const PairTask<R>& task, int i);
   void curl_pair(const PairTask<R>& task, const Tears& tears, int i);
   void pass_on_curl(const PairTask<R>& task);
   void read_hand(int i);

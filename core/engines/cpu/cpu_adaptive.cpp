@@ -144,10 +144,12 @@ void CpuEngine<R, Present>::begin_interval(const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::try_inner_step(int number, const Tears& tears) {
   Band<R, Present>& band = *bands_[std::size_t(number)];
+  if (number == 0) begin_self(tears);
   for (const ResolvedSweep& sweep : sweeps_) {
     if (&sweep == &sweeps_.front() && knows_first_a_) {
       band.assign(next_stage_, false);
     } else {
+      if (number == 0) find_near_force(sweep);
       band.copy_halo(sweep);
       team_->barrier();
       band.sweep(sweep, tears, false);
@@ -199,6 +201,7 @@ void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   assert(accepted_ && !abandoned_);
   const int torn = tears.torn_count();
   if (cloth_.notes_contacts) add_inner_contacts();
+  const bool held_back = end_self();
   const BatchEnd end = guard_.judge(*this, 1, tears, fault).end;
   follow_springs(tears);
   if (end != BatchEnd::complete) made_.end = end;
@@ -207,7 +210,7 @@ void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   // The last a is the next step's first, unless something else than the method has moved the particles or the springs.
   std::swap(cloth_.vector(sweeps_.front().assignments.front().target),
             cloth_.vector(sweeps_.back().assignments.front().target));
-  knows_first_a_ = torn == tears.torn_count() &&
+  knows_first_a_ = torn == tears.torn_count() && !held_back &&
                    std::none_of(bands().begin(), bands().end(), [](const auto& band) { return band->collided(); });
   if (left_of_dt_ > 0) take_next_dt();
 }

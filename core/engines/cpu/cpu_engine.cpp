@@ -122,8 +122,11 @@ void CpuEngine<R, Present>::resolve() {
   }
   start_ = scheme_->start.empty() ? ResolvedSweep() : resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
   std::vector<std::vector<PlacedBody>> bodies = bodies_in(1);
+  if (self_ == nullptr && touches_itself(cloth_.preset)) self_ = std::make_unique<Self>(cloth_.lattice);
   make_waves();  // the last that takes memory
   cloth_.features = features_of(cloth_.preset);
+  if (!touches_itself(cloth_.preset)) self_.reset();
+  if (self_ != nullptr) self_->contact.set_preset(cloth_.preset, layer_constant(cloth_.preset)), lose_self();
   cloth_.contacts = contacts_of(cloth_.preset, cloth_.dt, std::numeric_limits<R>::epsilon());
   cloth_.bodies_move = any_moves(cloth_.preset.bodies);
   cloth_.bodies.swap(bodies);
@@ -214,7 +217,8 @@ int CpuEngine<R, Present>::steps_of_wave(int threads) const {
   const int sweeps = std::min(rows / rows_per_sweep, most * threads);
   const std::size_t state = cloth_.vectors.size() * rows * cloth_.vector(vector_x).pitch() * sizeof(R);
   if (is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_) || solves_damping(*scheme_) ||
-      cloth_.preset.kind == Kind::one_weight || sweeps < threads || (threads == 1 && state <= own_cache))
+      cloth_.preset.kind == Kind::one_weight || touches_itself(cloth_.preset) || sweeps < threads ||
+      (threads == 1 && state <= own_cache))
     return 0;
   const int steps = sweeps / int(sweeps_.size());
   return steps < 2 ? 0 : steps;
@@ -257,6 +261,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   });
   guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, cloth_.bodies.front(), view(), 1));
   rows_ = Array<double>();
+  lose_self();
   set_synchronized(true);
   write_fixed_velocities();
   springs_changed_ = true;
@@ -385,6 +390,7 @@ void CpuEngine<R, Present>::drive_pins(std::span<const DrivenPin> pins, bool pla
       for (int c = 0; c < 3; ++c) cloth_.row(vector_x, pin.particle / columns, c)[pin.particle % columns] = R(pin.x[c]);
   write_fixed_velocities();
   knows_first_a_ = false;
+  lose_self();
   guard_.invalidate();
 }
 
@@ -412,6 +418,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
   follow_springs(tears);
+  begin_self(tears), find_near_force(look);
   for (const auto& band : bands()) band->copy_halo(look);
   for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
 }
@@ -434,9 +441,10 @@ void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
       const std::size_t to = std::size_t(i) * cloth_.lattice.columns + j;
-      state.v.x[to] += lag * acceleration_.row(i, 0)[j];
-      state.v.y[to] += lag * acceleration_.row(i, 1)[j];
-      state.v.z[to] += lag * acceleration_.row(i, 2)[j];
+      const glm::dvec3 a(acceleration_.row(i, 0)[j], acceleration_.row(i, 1)[j], acceleration_.row(i, 2)[j]);
+      // Forces that overflow end the next step; until then velocities are those of half a step ago.
+      if (!std::isfinite(a.x + a.y + a.z)) continue;
+      state.v.x[to] += lag * a.x, state.v.y[to] += lag * a.y, state.v.z[to] += lag * a.z;
     }
 }
 
@@ -487,6 +495,7 @@ void CpuEngine<R, Present>::go_on_from(const HeldMotion& then) {
   for (std::size_t n = 0; n < held->vectors.size(); ++n) cloth_.vectors[n] = held->vectors[n];
   set_synchronized(held->synchronized);
   control_ = held->control, knows_first_a_ = false;
+  lose_self();
   guard_.resume(held->given, cloth_.preset, cloth_.lattice, cloth_.held);
 }
 
@@ -539,6 +548,7 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
   return {{"bending", cloth && swept(bending)},
           {"rigidity", cloth && swept(linear)},
           {"curl", force::curl.on(p)},
+          {"self", self_ != nullptr && self_->contact.near()},
           {"damping", swept(damping)},
           {"wind", cloth && swept(wind)},
           {"air", cloth && swept(air)},

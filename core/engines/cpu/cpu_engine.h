@@ -26,9 +26,11 @@
 
 #include <cassert>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 
+#include "core/contact/self_contact.h"
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/block_descent.h"
 #include "core/engines/cpu/constant_solve.h"
@@ -88,6 +90,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void force_threads(std::function<int()> next) { forced_threads_ = std::move(next); }
   SolveCounts solves() const override;
   double given_squared() const override { return guard_.given_squared(); }
+  std::int64_t held_back() const override { return self_ != nullptr ? self_->held_back : 0; }
   InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
@@ -215,6 +218,16 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// For a method that solves for the damping: the matrix, where springs or what is fixed have changed.
   void prepare_damping(const Tears& tears);
   Balance damping_balance() const;
+  // Contact of the cloth with itself, on one thread (cpu_self.cpp).
+  void begin_self(const Tears& tears);
+  void look_around(int vector, bool room);
+  void find_near_force(const ResolvedSweep& sweep);
+  bool end_self();
+  void fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const;
+  /// Something other than steps has moved particles.
+  void lose_self() {
+    if (self_ != nullptr) self_->way = std::numeric_limits<double>::infinity();
+  }
   /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
   /// Makes that many steps in one pass over the rows: each sweep is two rows behind the one before it, so that rows are
@@ -252,6 +265,18 @@ class CpuEngine final : public Engine, private GuardedSteps {
   Projector<R> projector_;
   ConstantSolver<R> constant_;
   BlockDescent<R> descent_;
+  /// Contact of the cloth with itself; null: the scene has none.
+  struct Self {
+    explicit Self(const Lattice& lattice) : contact(lattice) {}
+    SelfContact contact;
+    double way = std::numeric_limits<double>::infinity();  ///< of particles since its list was looked at, m
+    std::vector<glm::dvec3> before, x, v, F;
+    bool looked = false;  ///< at the positions of the state
+    Field rows_before;    ///< positions at the beginning of the step
+    Field force;
+    std::int64_t held_back = 0, held_back_then = 0;  ///< by the guard; and as of the backup
+  };
+  std::unique_ptr<Self> self_;
   std::int64_t damping_products_ = 0;  ///< of a method that solves for the damping, in all steps
   int known_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made

@@ -113,7 +113,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   Band<R, Present>& band = *bands_[std::size_t(number)];
   band.reset_watch();
-  if (number == 0) solver_.begin_step(), begin_limit();
+  if (number == 0) solver_.begin_step(), begin_limit(), begin_self(tears);
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
     if (sweep.projects) {
@@ -135,11 +135,13 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
       team_->barrier();
       continue;
     }
+    if (number == 0) find_near_force(sweep);
     band.copy_halo(sweep);
     team_->barrier();
     band.sweep(sweep, tears, last);
     team_->barrier();
   }
+  if (number == 0) end_self();
 }
 
 template <class R, unsigned Present>
@@ -298,6 +300,7 @@ BatchResult CpuEngine<R, Present>::make_steps(int most, Tears& tears, Fault& fau
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::keep_backup() {
   for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
+  if (self_ != nullptr) self_->held_back_then = self_->held_back;
   control_backup_ = control_, synchronized_backup_ = synchronized_, step_backup_ = step();
 }
 
@@ -307,6 +310,8 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   assert(steps >= 0 && !repeating_);
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
+  lose_self();
+  if (self_ != nullptr) self_->held_back = self_->held_back_then;
   set_synchronized(synchronized_backup_);
   return_to(step_backup_);
   Fault known{};

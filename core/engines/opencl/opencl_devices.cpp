@@ -55,7 +55,8 @@ bool runs_on_opencl(const Scheme& method) {
 }
 
 const Force* missing_on_opencl(const Preset& preset) {
-  if (force::curl.on(preset)) return &force::curl;
+  for (const Force* force : {&force::curl, &force::self})
+    if (force->on(preset)) return force;
   return force::air.on(preset) && is_implicit(scheme(preset.integrator)) ? &force::air : nullptr;
 }
 

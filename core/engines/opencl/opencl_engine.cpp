@@ -23,8 +23,9 @@ void refuse_missing(const Preset& preset) {
   if (const Force* force = missing_on_opencl(preset))
     throw EngineError("The OpenCL engine does not compute " + words_of_missing(*force, preset.integrator) +
                       "; use the CPU engine (--engine cpu)" +
-                      (force == &force::air ? ", an explicit method such as verlet, or air_density = 0"
-                                            : " or kappa_warp = kappa_weft = 0"));
+                      (force == &force::air    ? ", an explicit method such as verlet, or air_density = 0"
+                       : force == &force::self ? " or self = off"
+                                               : " or kappa_warp = kappa_weft = 0"));
 }
 
 template <class R>

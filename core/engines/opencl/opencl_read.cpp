@@ -82,9 +82,16 @@ std::size_t OpenClEngine<R>::bytes() const {
 template <class R>
 std::vector<StepFeature> OpenClEngine<R>::features() const {
   const Preset& p = preset_;
-  return {{"bending", force::bend.on(p)},    {"rigidity", force::rigidity.on(p)}, {"curl", false},
-          {"damping", force::damping.on(p)}, {"wind", force::wind.on(p)},         {"air", force::air.on(p)},
-          {"bodies", meets_bodies(p)},       {"tearing", tears_watched()},        {"pins", !pinned_.empty()},
+  return {{"bending", force::bend.on(p)},
+          {"rigidity", force::rigidity.on(p)},
+          {"curl", false},
+          {"self", false},
+          {"damping", force::damping.on(p)},
+          {"wind", force::wind.on(p)},
+          {"air", force::air.on(p)},
+          {"bodies", meets_bodies(p)},
+          {"tearing", tears_watched()},
+          {"pins", !pinned_.empty()},
           {"hand", held_.particle >= 0}};
 }
 

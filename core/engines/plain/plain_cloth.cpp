@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/contact/self_contact.h"
 #include "core/forces/contact.h"
 
 namespace tyglab::plain {
@@ -16,6 +17,7 @@ Vector forces(const Preset& preset, const Tears& tears, const Vector& x, const V
   Vector F(x.size(), glm::dvec3(0));
   for (const Force* force : force::all) {
     if (!force->on(preset) || (external_only && force->group == Force::Group::internal)) continue;
+    if (force->among != nullptr) force->among(preset, tears, x, v, F);
     for (const Stencil& stencil : force->stencils(preset))
       for (int i = 0; i < lattice.rows; ++i)
         for (int j = 0; j < lattice.columns; ++j) {
@@ -75,6 +77,27 @@ void Cloth::step(const Tears& tears, double t) {
     assign(sweep.assignments, accelerations(sweep.position, sweep.velocity, per, tears, sweep.external));
   }
   collide(x_before, v_before, t);
+  if (guards_itself(preset)) hold_back(tears, x_before);
+}
+
+/// The guard of contact with itself shortens ways, and velocities as much.
+void Cloth::hold_back(const Tears& tears, const Vector& x_before) {
+  SelfContact contact(tears.lattice());
+  contact.set_preset(preset, layer_constant(preset));
+  contact.follow(tears, x_before);
+  contact.look(x_before, true);
+  const bool free = std::all_of(fixed.begin(), fixed.end(), [](std::uint8_t one) { return one == 0; });
+  const double scale = velocity_scale();
+  for (const auto [particle, part] : contact.hold_back(x_before, vectors[vector_x], free)) {
+    ++held_back;
+    if (fixed[std::size_t(particle)] != 0) continue;
+    const glm::dvec3 common = contact.common_way() / preset.dt * scale;
+    for (Vector* v : {&vectors[vector_v], &seen()}) {
+      glm::dvec3& one = (*v)[std::size_t(particle)];
+      one = common + part * (one - common);
+      if (&seen() == &vectors[vector_v]) break;
+    }
+  }
 }
 
 /// Bodies correct the positions and velocities of particles that meet them in the step. Vectors: before its last sweep,

@@ -38,6 +38,7 @@ struct Cloth {
   glm::dvec3 hand_force{0};       ///< on the held particle, N
   std::vector<Contact> contacts;  ///< what bodies stopped
   int left_inside = 0;            ///< particles that are still inside a body
+  std::int64_t held_back = 0;     ///< particles whose way the guard has cut short, in all steps
   double largest = 0;             ///< component of a displacement, m; infinity where one is not finite
 
   /// What vector 1 is times.
@@ -61,6 +62,7 @@ struct Cloth {
  private:
   void assign(const std::vector<Assignment>& assignments, const Vector& a);
   void collide(const Vector& x_before, const Vector& v_before, double t);
+  void hold_back(const Tears& tears, const Vector& x_before);
 };
 
 }  // namespace tyglab::plain

@@ -65,6 +65,7 @@ class PlainEngine final : public Engine, private GuardedSteps {
   SolveCounts solves() const override { return guard_.with_steps({}); }
   double given_squared() const override { return guard_.given_squared(); }
   InnerSteps inner_steps() const override { return {}; }
+  std::int64_t held_back() const override { return cloth_.held_back; }
   std::vector<StepFeature> features() const override;
   std::string name() const override { return "plain, double, 1 thread"; }
 
@@ -266,7 +267,7 @@ void PlainEngine::go_on_from(const HeldMotion& then) {
 std::vector<StepFeature> PlainEngine::features() const {
   const Preset& p = cloth_.preset;
   std::vector<StepFeature> all;
-  for (const Force* force : {&force::bend, &force::curl, &force::damping, &force::wind})
+  for (const Force* force : {&force::bend, &force::curl, &force::damping, &force::wind, &force::self})
     all.push_back({force->name, force->on(p)});
   all.push_back({"bodies", !p.bodies.empty()});
   all.push_back({"tearing", tears_springs(p)});

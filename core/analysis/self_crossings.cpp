@@ -1,0 +1,32 @@
+#include "core/analysis/self_crossings.h"
+
+#include "core/model/words.h"
+
+namespace tyglab {
+
+VectorField<double> dense_positions(const Simulation& simulation) {
+  const PositionView from = simulation.positions();
+  VectorField<double> x;
+  x.resize(std::size_t(from.rows) * from.columns);
+  std::size_t p = 0;
+  for (int i = 0; i < from.rows; ++i)
+    for (int j = 0; j < from.columns; ++j, ++p) {
+      const glm::dvec3 at = from.at(i, j);
+      x.x[p] = at.x, x.y[p] = at.y, x.z[p] = at.z;
+    }
+  return x;
+}
+
+Crossings self_crossings(const Simulation& simulation, const CrossingLimits& limits) {
+  if (simulation.preset().kind != Kind::cloth || simulation.divergence()) return {};
+  return count_crossings(dense_positions(simulation), simulation.tears(), limits);
+}
+
+std::string crossings_in_words(const Crossings& crossings) {
+  if (crossings.pairs == 0) return "";
+  return std::string("The cloth passes through itself: ") + (crossings.complete ? "" : "at least ") +
+         grouped(crossings.pairs) +
+         (crossings.pairs == 1 ? " pair of triangles crosses." : " pairs of triangles cross.");
+}
+
+}  // namespace tyglab

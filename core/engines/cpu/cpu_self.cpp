@@ -1,0 +1,108 @@
+// Contact of the cloth with itself (core/contact/self_contact.h) around the sweeps: forces before each, the guard after
+// the last. One thread makes it, in double, and only while something is near; the others wait.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/engines/cpu/cpu_engine.h"
+#include "core/forces/readout.h"
+
+namespace tyglab::cpu {
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const {
+  const int columns = cloth_.lattice.columns;
+  out.resize(std::size_t(cloth_.lattice.size()));
+  for (int i = 0; i < cloth_.lattice.rows; ++i) {
+    const R *x = field.row(i, 0), *y = field.row(i, 1), *z = field.row(i, 2);
+    glm::dvec3* to = out.data() + std::ptrdiff_t(i) * columns;
+    for (int j = 0; j < columns; ++j) to[j] = scale * glm::dvec3(x[j], y[j], z[j]);
+  }
+}
+
+/// Before a step: which parts are near.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::begin_self(const Tears& tears) {
+  if (self_ == nullptr) return;
+  if (self_->contact.stale(tears, self_->way)) {
+    fetch(cloth_.vector(vector_x), 1, self_->x);
+    self_->contact.follow(tears, self_->x);
+    self_->way = 0;
+  }
+  if (guards_itself(cloth_.preset)) self_->rows_before = cloth_.vector(vector_x);
+  self_->looked = false;
+  if (self_->contact.near()) look_around(vector_x, guards_itself(cloth_.preset));
+}
+
+/// Measures near pairs at the positions of a vector. `room`: at the beginning of a step.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::look_around(int vector, bool room) {
+  fetch(cloth_.vector(vector), 1, self_->x);
+  self_->contact.look(self_->x, room);
+  self_->looked = vector == vector_x;
+}
+
+/// Before a sweep: the forces that it adds to those it computes.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
+  cloth_.near_force = nullptr;
+  if (self_ == nullptr || !self_->contact.near() || sweep.external) return;
+  std::vector<glm::dvec3>& F = self_->F;
+  // The first sweep of a step is at the positions that its beginning has looked at.
+  if (sweep.position != vector_x || !self_->looked) look_around(sweep.position, false);
+  F.assign(self_->x.size(), glm::dvec3(0));
+  self_->contact.add_forces(F);
+  if (self_->contact.has_friction()) {
+    fetch(cloth_.vector(sweep.velocity), sweep.per_velocity, self_->v);
+    self_->contact.add_friction(self_->v, F);
+  }
+  if (self_->force.empty()) self_->force.resize(array_rows(), cloth_.stride);
+  const int columns = cloth_.lattice.columns;
+  for (int i = 0; i < cloth_.lattice.rows; ++i)
+    for (int c = 0; c < 3; ++c) {
+      R* row = self_->force.row(i, c);
+      for (int j = 0; j < columns; ++j) row[j] = R(F[std::size_t(i) * std::size_t(columns) + std::size_t(j)][c]);
+    }
+  cloth_.near_force = &self_->force;
+}
+
+/// After a step: the guard. Returns whether it has changed anything.
+template <class R, unsigned Present>
+bool CpuEngine<R, Present>::end_self() {
+  if (self_ == nullptr) return false;
+  double largest = 0;
+  for (const auto& band : bands()) largest = std::max(largest, band->max_displacement());
+  const double way = std::sqrt(3.0) * largest;
+  self_->way += way, self_->looked = false;
+  if (!guards_itself(cloth_.preset) || way <= self_->contact.least_room()) return false;
+  const int columns = cloth_.lattice.columns;
+  fetch(self_->rows_before, 1, self_->before);
+  fetch(cloth_.vector(vector_x), 1, self_->x);
+  const auto held = self_->contact.hold_back(self_->before, self_->x, all_fixed_.empty());
+  const glm::dvec3 common = self_->contact.common_way() * (cloth_.velocity_scale() / cloth_.dt);
+  for (const auto [particle, part] : held) {
+    const int i = particle / columns, j = particle % columns;
+    const bool fixed = !cloth_.fixed.empty() && cloth_.fixed[std::size_t(particle)] != 0;
+    for (int c = 0; c < 3; ++c) {
+      cloth_.row(vector_x, i, c)[j] = R(self_->x[std::size_t(particle)][c]);
+      if (fixed) continue;
+      for (const int vector : {int(vector_v), cloth_.seen_velocity}) {
+        R& v = cloth_.row(vector, i, c)[j];
+        v = R(common[c] + part * (double(v) - common[c]));
+        if (cloth_.seen_velocity == vector_v) break;
+      }
+    }
+  }
+  self_->held_back += std::int64_t(held.size());
+  return !held.empty();
+}
+
+// What the engine's other files need of this one.
+#define TYGLAB_MAKE(R, present)                                                 \
+  template void CpuEngine<R, (present)>::begin_self(const Tears&);              \
+  template void CpuEngine<R, (present)>::find_near_force(const ResolvedSweep&); \
+  template bool CpuEngine<R, (present)>::end_self();
+TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
+#undef TYGLAB_MAKE
+
+}  // namespace tyglab::cpu
