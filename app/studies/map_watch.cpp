@@ -44,7 +44,7 @@ void MapWatch::begin(const StudyMoment& moment) {
 }
 
 void MapWatch::poll(StudyMoment& moment) {
-  if (moment.simulation.lattice().size() > largest) return drop();
+  if (moment.simulation.lattice().size() > largest || !map_problem(moment.preset()).empty()) return drop();
   const auto known = findings();
   const bool fits = known && same_map(known->of, moment.preset()) && holds(known->grid, moment.preset());
   if (fits) {

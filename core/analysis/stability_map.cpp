@@ -63,6 +63,11 @@ double stiffness_of(const Preset& preset) {
   return preset.*stiffness_field(preset);
 }
 
+std::string map_problem(const Preset& preset) {
+  const std::string key = stiffness_key(preset), others = replaced_by(*find_row(key), preset);
+  return others.empty() ? "" : key + " has no effect while " + others + " are set, so there is no map over it";
+}
+
 Preset at_place(Preset preset, double stiffness, double dt) {
   preset.*stiffness_field(preset) = stiffness;
   preset.dt = dt;

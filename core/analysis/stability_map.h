@@ -39,6 +39,8 @@ struct MapCell {
 /// The constant on the map's x axis: "k_s", or "k" of a mass on a spring; its value; and the preset with both set.
 std::string stiffness_key(const Preset& preset);
 double stiffness_of(const Preset& preset);
+/// Why there is no map over it, a sentence without its end: it acts on nothing. Empty where it does.
+std::string map_problem(const Preset& preset);
 Preset at_place(Preset preset, double stiffness, double dt);
 /// Whether both have one map: they differ at most in stiffness and dt, in the engine (cells run on the CPU's) and in
 /// what no motion depends on.

@@ -87,7 +87,7 @@ struct Force {
   double (*linear)(const Preset&, const Stencil&) = nullptr;
   /// The largest second derivative of φ, N/m.
   double (*stiffness)(const Preset&, const Stencil&) = nullptr;
-  /// The constant that it is proportional to.
+  /// The constant that it is proportional to; of several the largest.
   std::string_view (*constant)(const Preset&) = nullptr;
   /// Upper bound of the eigenvalues of its Hessian K over all positions of all particles, N/m; for a force without a
   /// potential φ(|d|) over those in which no thread is longer than most_stretch().

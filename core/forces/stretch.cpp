@@ -1,6 +1,7 @@
 // F_s: springs that pull while they are longer than at rest, to the eight nearest particles (2.4, 2.5); for a mass on a
 // spring, Hooke's two-sided spring to x_0 (2.3).
 #include <cmath>
+#include <utility>
 
 #include "core/forces/force.h"
 
@@ -31,6 +32,19 @@ struct Stretch {
   }
 };
 
+/// The key of the largest of the constants that act: k_s only where a direction has none of its own.
+std::string_view largest_constant(const Preset& p) {
+  if (p.kind == Kind::one_weight) return "k";
+  const double most = spring_constants(p).largest();
+  std::string_view largest;
+  for (const auto& [key, k] :
+       {std::pair("k_warp", p.k_warp), std::pair("k_weft", p.k_weft), std::pair("k_shear", p.k_shear)}) {
+    if (k == left_out && p.k_s == most) return "k_s";
+    if (k == most) largest = key;
+  }
+  return largest;
+}
+
 }  // namespace
 
 const Force force::stretch{
@@ -49,7 +63,7 @@ const Force force::stretch{
     .potential = Stretch::potential,
     .stiffness = [](const Preset& p,
                     const Stencil& s) { return p.kind == Kind::one_weight ? p.k : Stretch::constant(p, s); },
-    .constant = [](const Preset& p) -> std::string_view { return p.kind == Kind::one_weight ? "k" : "k_s"; },
+    .constant = largest_constant,
     // Σ 4 sin² over the four directions is at most 12: 12 k_s, where all have it.
     .largest_eigenvalue =
         [](const Preset& p) {

@@ -413,6 +413,17 @@ bool is_absent(const PresetRow& row, const Preset& preset) {
   return number != nullptr && is_absent(row, preset.**number);
 }
 
+std::string replaced_by(const PresetRow& row, const Preset& preset) {
+  std::vector<std::string_view> keys;
+  for (const PresetRow& other : rows)
+    if (other.otherwise == row.key) {
+      if (is_absent(other, preset)) return {};
+      keys.push_back(other.key);
+    }
+  if (keys.empty()) return {};
+  return joined(std::span(keys).first(keys.size() - 1)) + " and " + std::string(keys.back());
+}
+
 double usual_value(const PresetRow& row) {
   const auto* field = std::get_if<double Preset::*>(&row.field);
   const double value = field == nullptr ? 0 : Preset{}.**field;

@@ -94,6 +94,9 @@ template <class T>
 bool is_absent(const Row<T>& row, double value) {
   return !row.otherwise.empty() && value == left_out;
 }
+/// The keys of the constants that act in its place, "k_warp, k_weft and k_shear", where all of them are set and it has
+/// no effect; otherwise empty.
+std::string replaced_by(const PresetRow& row, const Preset& preset);
 /// Slider range about three decades round `value` (logarithmic) or round the value (linear), inside the allowed range;
 /// starts at 0 where 0 is allowed.
 struct SliderRange {

@@ -27,8 +27,9 @@ std::string seconds(double dt) {
 
 /// What to do where rounding changes forces too much.
 std::string finer_precision(const Preset& p) {
-  return p.precision == Precision::float_ ? "Use double precision (--precision double)."
-                                          : "Use a smaller k_s or a larger m.";
+  return p.precision == Precision::float_
+             ? "Use double precision (--precision double)."
+             : "Use a smaller " + std::string(force::stretch.constant(p)) + " or a larger m.";
 }
 
 /// One unit in the last place of the largest coordinate of a particle at the start, m.
@@ -271,7 +272,8 @@ std::string advice_for_weak_springs(const Preset& p) {
   if (p.kind == Kind::one_weight) return "Use a larger k or a smaller m, and restart: dt and method do not matter.";
   std::string also = p.bodies.empty() ? "" : ", or move bodies out of the cloth";
   if (p.v_0 != glm::dvec3(0)) also += ", or use a smaller v_0";
-  return "Use a larger k_s, or less weight (m, g) or wind" + also + ", and restart: dt and method do not matter.";
+  return "Use a larger " + std::string(force::stretch.constant(p)) + ", or less weight (m, g) or wind" + also +
+         ", and restart: dt and method do not matter.";
 }
 
 std::optional<Preset> suggested_fix(const Preset& p) {

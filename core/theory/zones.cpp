@@ -97,14 +97,16 @@ std::string_view zone_name(Zone zone, Kind kind) {
 }
 
 std::vector<ZonedConstant> zoned_constants(const Preset& p) {
-  std::vector<std::string_view> keys{"dt"};
+  std::vector<std::string_view> keys;
+  const auto add = [&](std::string_view key) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  add("dt");
   for (const Force* force : force::all)
-    if (force->constant != nullptr) {
-      keys.push_back(force->constant(p));
-      for (const PresetRow& row : notation())
-        if (row.otherwise == force->constant(p) && !is_absent(row, p)) keys.push_back(row.key);
-    }
-  keys.insert(keys.end(), {"k_d", "m", "L"});
+    if (force->constant != nullptr) add(force->constant(p));
+  for (const PresetRow& row : notation())
+    if (!row.otherwise.empty()) add(is_absent(row, p) ? row.otherwise : row.key);
+  for (const std::string_view key : {"k_d", "m", "L"}) add(key);
   std::vector<ZonedConstant> all;
   for (const std::string_view key : keys)
     if (const PresetRow& row = *find_row(key); !row.only_one_kind || row.only == p.kind)

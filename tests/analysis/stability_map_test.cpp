@@ -76,6 +76,16 @@ TEST_CASE("implicit Euler has no boundary, and nothing of it diverges; one weigh
   CHECK(measure_cell(weight, own, 4, 4, never).diverged);
 }
 
+TEST_CASE("there is no map over a k_s that acts on nothing") {
+  Preset preset = test::cloth(6, 6);
+  preset.k_warp = preset.k_weft = 80;
+  CHECK(map_problem(preset).empty());
+  preset.k_shear = 0;
+  CHECK(map_problem(preset) ==
+        "k_s has no effect while k_warp, k_weft and k_shear are set, so there is no map over it");
+  CHECK(map_problem(test::one_weight()).empty());
+}
+
 TEST_CASE("a map that is asked to stop stops") {
   const Preset preset = test::cloth(6, 6);
   CHECK_THROWS_AS(measure_cell(preset, map_grid(preset, 2, 2), 0, 0, [] { return true; }), Stopped);

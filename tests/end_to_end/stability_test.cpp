@@ -125,6 +125,7 @@ TEST_CASE("a wrong command line is refused with what is allowed") {
         Wrong{{"stability", "stress", "--cases", "0"}, "1 to"}, Wrong{{"stability", "stress", "--seed", "x"}, "seed"},
         Wrong{{"stability", "stress", "--integrator", "vdb"}, "vbd"},
         Wrong{{"stability", "stress", "--quick", "--cases", "5"}, "cannot be combined"},
+        Wrong{{"stability", "map", "cusick", "--quick"}, "cusick: k_s has no effect while k_warp, k_weft and k_shear"},
         Wrong{{"stability", "boundary", "--json", "a", "--png", "a"}, "--png"}}) {
     const auto run = test::tyglab(folder.path(), wrong.words);
     CAPTURE(wrong.says);

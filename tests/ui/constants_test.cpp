@@ -393,6 +393,25 @@ TEST_CASE("the tooltip of k_s says in which zone it is: at 180 N/m on lab 03's s
       "stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape above that"));
 }
 
+TEST_CASE("the tooltip of k_s says that it acts on nothing where the springs of every direction have their own") {
+  for (const bool all : {false, true}) {
+    CAPTURE(all);
+    test::NullUi window({.with = [&](Preset& preset) {
+      preset.k_warp = preset.k_weft = 80;
+      if (all) preset.k_shear = 20;
+    }});
+    window.pause();
+    window.move(window.along("constants.k_s.slider", 0.5f));
+    window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
+    window.frames(2);
+    CHECK(window.drew("It has no effect while k_warp, k_weft and k_shear are set.") == all);
+    window.key(GLFW_KEY_M);
+    window.frames(6);
+    CHECK(window.drew("K_s has no effect") == false);
+    CHECK(window.drew("so there is no map over it.") == all);
+  }
+}
+
 TEST_CASE("a typed value makes the slider longer on its side alone, until it is reset") {
   test::NullUi window;
   window.pause();

@@ -342,4 +342,23 @@ TEST_CASE("no advice names a dt that is not allowed, or a method that is stable 
   CHECK(advice(bent).find("or a smaller k_b, and restart") != std::string::npos);
 }
 
+TEST_CASE("advice names k_s only where it is the largest constant that acts") {
+  Preset p = test::cloth(8, 8);
+  p.k_b = 0, p.k_d = 0, p.dt = 0.1;
+  const auto named = [&](const char* key) {
+    CAPTURE(advice(p));
+    CHECK(advice(p).find(std::string("or a smaller ") + key + ", and restart") != std::string::npos);
+    CHECK(advice_for_weak_springs(p).starts_with(std::string("Use a larger ") + key + ", or less weight"));
+  };
+  named("k_s");
+  p.k_warp = 0.5 * p.k_s, p.k_weft = p.k_s;
+  named("k_s");
+  p.k_warp = 2 * p.k_s;
+  named("k_warp");
+  p.k_weft = 3 * p.k_s, p.k_shear = 0.1 * p.k_s;
+  named("k_weft");
+  p.k_s = 1e6;
+  named("k_weft");
+}
+
 }  // namespace tyglab::divergence_test

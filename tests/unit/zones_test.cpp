@@ -129,6 +129,22 @@ TEST_CASE("damping that heals Euler, and too much of it, both show") {
   CHECK(std::any_of(zones.begin(), zones.end(), [](const ZoneSpan& z) { return z.zone == Zone::stable; }));
 }
 
+TEST_CASE("only constants that act have zones: k_s has none where each direction has its own") {
+  Preset p = undamped("verlet");
+  const auto has = [&](std::string_view key) {
+    const auto zoned = zoned_constants(p);
+    return std::count_if(zoned.begin(), zoned.end(), [&](const ZonedConstant& of) { return of.key == key; });
+  };
+  CHECK(has("k_s") == 1);
+  CHECK(has("k_warp") == 0);
+  p.k_warp = p.k_weft = 200;
+  CHECK(has("k_s") == 1);
+  CHECK(has("k_warp") == 1);
+  p.k_shear = 10;
+  CHECK(has("k_s") == 0);
+  for (const char* key : {"dt", "k_warp", "k_weft", "k_shear", "k_b", "k_d", "m"}) CHECK(has(key) == 1);
+}
+
 TEST_CASE("methods without a limit are stable all along") {
   for (const char* method : {"implicit_euler", "tr_bdf2", "dopri5", "projective_dynamics", "vbd", "xpbd"}) {
     const auto zones = stability_zones(undamped(method), &Preset::k_s, 0.05, 1e9);

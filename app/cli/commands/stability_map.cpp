@@ -91,6 +91,9 @@ int map(const MapOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   const ResolvedPreset scene = options.preset.resolve("hanging");
+  if (const std::string problem = map_problem(scene.preset); !problem.empty())
+    throw UsageError(in_one_line(scene.source.label) + ": " + problem +
+                     "; set one of them to k_s, as in --set k_weft=k_s");
   const MapGrid grid = options.bench.quick ? map_grid(scene.preset, 12, 8) : map_grid(scene.preset, 36, 26);
   const std::vector<int> order = coarse_first(grid);
   out << machine_line() << '\n'
@@ -134,7 +137,9 @@ void add_stability_map(CLI::App& stability, Action& action) {
   add_json(*command, options->bench);
   add_output(*command, "--csv", options->csv, "Write one row per cell");
   add_png(*command, options->bench, "Draw the map");
-  command->footer("Example: tyglab stability map hanging --integrator rk4 --png map.png");
+  command->footer(
+      "The map is over k_s, so k_warp, k_weft and k_shear must not all be set.\n"
+      "Example: tyglab stability map hanging --integrator rk4 --png map.png");
   command->callback([&action, options] { action = [options] { return map(*options); }; });
 }
 

@@ -43,6 +43,8 @@ void words_alone(Ui& ui, const std::string& words) {
 void stability_map(Ui& ui, ImVec2 size) {
   if (ui.session.simulation->lattice().size() > MapWatch::largest)
     return words_alone(ui, "This cloth is too large to be mapped here.");
+  if (const std::string problem = map_problem(ui.session.requested_preset()); !problem.empty())
+    return words_alone(ui, problem + ".");
   const auto map = ui.session.studies.map.findings();
   if (!map) return;
   if (!map->problem.empty()) return words_alone(ui, "The map stopped here: " + map->problem);

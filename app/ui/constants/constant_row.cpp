@@ -25,6 +25,7 @@ struct Line {
   bool zero_is_off, integer = false;
   std::string_view otherwise = {};  ///< whose value it has while it is absent
   double other_value = none;
+  std::string replaced_by = {};  ///< the constants that act in its place, where it has no effect
   int components = 1;
   double value[3]{}, saved[3]{none, none, none}, standard[3]{};
   std::function<void(const double* value, unsigned gesture)> set;
@@ -161,6 +162,7 @@ void row_tooltip(Ui& ui, const Line& line) {
   if (!line.otherwise.empty()) facts += ", or absent: as " + std::string(line.otherwise);
   if (!line.equation.empty()) facts += " · " + equation_of_report(line.equation);
   wrapped(ui, facts, c.quiet);
+  if (!line.replaced_by.empty()) wrapped(ui, "It has no effect while " + line.replaced_by + " are set.", c.warning);
   if (const auto& limits = ui.session.studies.stability.limits())
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);
   if (line.effect == Effect::start)
@@ -247,7 +249,7 @@ void symbol_cell(Ui& ui, const Line& line, const RowColumns& columns) {
   if (known_by_words(line.key))
     draw_on_baseline(draw, *ui.fonts.small, at, c.text, line.key);
   else
-    draw_symbol(draw, ui.fonts, at, line.symbol, c.text);
+    draw_symbol(draw, ui.fonts, at, line.symbol, line.replaced_by.empty() ? c.text : c.quiet);
 }
 
 /// The palette asked for this constant: its slider, which is drawn next, takes the focus.
@@ -337,6 +339,7 @@ void constant_row(Ui& ui, const PresetRow& row) {
   read(row.field, Preset{}, line.standard);
   if (const PresetRow* other = line.otherwise.empty() ? nullptr : find_row(line.otherwise))
     read(other->field, ui.session.requested_preset(), &line.other_value);
+  line.replaced_by = replaced_by(row, ui.session.requested_preset());
   line.set = [&](const double* value, unsigned gesture) {
     Preset next = question ? question->more : ui.session.requested_preset();
     write(row.field, next, value);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/base/text.h"
+#include "core/forces/force.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -14,8 +15,8 @@ std::string what_happened(const Divergence& d, const Preset& then, double limit)
   std::snprintf(text, sizeof text, "At t = %s s (step %lld), %s: %s = %s.", time_number(d.t, then.dt).c_str(),
                 static_cast<long long>(d.step), d.where().c_str(), d.quantity.c_str(), value.c_str());
   const bool cloth = then.kind == Kind::cloth;
-  std::string all = std::string(text) + "\nWith " +
-                    (cloth ? "k_s = " + quantity(then.k_s, "N/m") : "k = " + quantity(then.k, "N/m")) +
+  std::string all = std::string(text) + "\nWith " + std::string(force::stretch.constant(then)) + " = " +
+                    quantity(cloth ? spring_constants(then).largest() : then.k, "N/m") +
                     ", k_d = " + quantity(then.k_d, "N s/m") + ", m = " + quantity(then.m, "kg") +
                     ", dt = " + quantity(then.dt, "s");
   if (limit > 0 && std::isfinite(limit))
