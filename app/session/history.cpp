@@ -6,6 +6,7 @@
 
 #include "app/base/text.h"
 #include "core/integrators/scheme.h"
+#include "core/model/fabric.h"
 #include "core/model/fields.h"
 #include "core/model/words.h"
 
@@ -54,6 +55,19 @@ std::string in_words(const PresetField& field, const Preset& before, const Prese
   if (field.row != nullptr && !field.row->unit.empty() && !is_absent(*field.row, after))
     text += " " + std::string(field.row->unit);
   return text;
+}
+
+/// "fabric Jeans, 11 oz → Paper, 100 g/m²", where one was chosen, or that is taken back; otherwise empty.
+std::string fabric_in_words(const Preset& before, const Preset& after) {
+  const auto name_in = [](const Preset& preset) {
+    const auto chosen = std::find_if(fabrics().begin(), fabrics().end(),
+                                     [&](const Fabric& fabric) { return is_fabric(preset, fabric); });
+    return std::string(chosen != fabrics().end() ? chosen->name : "none");
+  };
+  const bool chosen = std::any_of(fabrics().begin(), fabrics().end(), [&](const Fabric& fabric) {
+    return with_fabric(before, fabric) == after || with_fabric(after, fabric) == before;
+  });
+  return chosen ? "fabric " + name_in(before) + " → " + name_in(after) : "";
 }
 
 }  // namespace
@@ -116,6 +130,7 @@ std::string change_in_words(const Preset& before, const Preset& after) {
   const std::string first = in_words(*fields.front(), before, after);
   const std::size_t more = fields.size() - 1;
   if (more == 0) return first;
+  if (const std::string fabric = fabric_in_words(before, after); !fabric.empty()) return fabric;
   return first + " and " + std::to_string(more) + (more == 1 ? " more constant" : " more constants");
 }
 

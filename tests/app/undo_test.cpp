@@ -7,6 +7,7 @@
 #include "app/session/copies.h"
 #include "app/session/motion.h"
 #include "app/session/session.h"
+#include "core/model/fabric.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::undo_test {
@@ -92,6 +93,19 @@ TEST_CASE("what is undone is named, methods and precisions too") {
   CHECK(only_change(before, session.preset()) == "integrator");
   take_from_history(session, true);
   CHECK(said(session, "Undone: integrator Runge-Kutta 4 → Verlet."));
+}
+
+TEST_CASE("of a fabric that was chosen its name is told, not one of its constants") {
+  Session session = session_with(test::cloth(8, 8));
+  for (const Fabric& fabric : {fabrics().front(), fabrics().back()})
+    REQUIRE(apply_edit(session, edit::Change{with_fabric(session.preset(), fabric)}, 0));
+  const std::string first(fabrics().front().name), last(fabrics().back().name);
+  take_from_history(session, true);
+  CHECK(said(session, ("Undone: fabric " + last + " → " + first + ".").c_str()));
+  take_from_history(session, true);
+  CHECK(said(session, ("Undone: fabric " + first + " → none.").c_str()));
+  take_from_history(session, false);
+  CHECK(said(session, ("Redone: fabric none → " + first + ".").c_str()));
 }
 
 TEST_CASE("a knife that goes through nothing leaves nothing to undo") {
