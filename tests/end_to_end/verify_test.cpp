@@ -50,6 +50,7 @@ TEST_CASE("1: a case fails; the table, the message and the JSON say which") {
   CHECK(run.code == 1);
   CHECK(run.err == "tyglab: 1 of 2 cases failed: slide.\n");
   CHECK(run.out.find("FAILS") != std::string::npos);
+  CHECK(run.out.ends_with("\n1 of 2 cases hold.\n"));
   const auto json = read_json(folder / "v.json");
   CHECK(json["disturb"] == "g=1.01");
   CHECK(json["cases"][0]["ok"] == true);
@@ -64,13 +65,15 @@ TEST_CASE("2: a wrong command line is refused with what is allowed") {
     std::vector<std::string> words;
     std::vector<std::string> says;
   };
-  for (const Wrong& wrong : {Wrong{{"verify", "slid"}, {"slid:", "did you mean slide", "pendulum, "}},
-                             Wrong{{"verify", "slide", "nothing"}, {"nothing:", "free_fall, "}},
-                             Wrong{{"verify", "slide", "--disturb", "L=2"}, {"L is no constant of the forces", "k_s"}},
-                             Wrong{{"verify", "slide", "--disturb", "g"}, {"g=1.1"}},
-                             Wrong{{"verify", "slide", "--disturb", "g=x"}, {"'x' is not a number"}},
-                             Wrong{{"verify", "slide", "--disturb", "g=-1"}, {"0 to"}},
-                             Wrong{{"verify", "slide", "--json", ""}, {"--json"}}}) {
+  for (const Wrong& wrong :
+       {Wrong{{"verify", "slid"}, {"slid:", "did you mean slide", "pendulum, "}},
+        Wrong{{"verify", "slide", "nothing"}, {"nothing:", "free_fall, "}},
+        Wrong{{"verify", "slide", "--disturb", "L=2"}, {"L is no constant of the forces. These are: k_s"}},
+        Wrong{{"verify", "slide", "--disturb", "gg=2"}, {"did you mean g? These are: k_s"}},
+        Wrong{{"verify", "slide", "--disturb", "g"}, {"g=1.1"}},
+        Wrong{{"verify", "slide", "--disturb", "g=x"}, {"'x' is not a number"}},
+        Wrong{{"verify", "slide", "--disturb", "g=-1"}, {"0 to"}},
+        Wrong{{"verify", "slide", "--json", ""}, {"--json"}}}) {
     const auto run = test::tyglab(folder.path(), wrong.words);
     CHECK(run.code == 2);
     CHECK(run.out.empty());

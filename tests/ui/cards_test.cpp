@@ -510,6 +510,11 @@ TEST_CASE("the gallery of exact answers is measured beside the frames, until it 
   window.frames(2);
   CHECK(window.drew("measured 4.91 m, exact 4.91 m"));
   CHECK(window.drew(" hold, "));
+  CHECK_FALSE(window.drew("Measured 4.91 m, exact 4.91 m."));
+  const Box run = window.control("plots.Stop");
+  window.move({run.lo.x + 30, run.hi.y + 60});  // over the first case
+  window.frames(2);
+  CHECK(window.drew("Measured 4.91 m, exact 4.91 m."));
   window.click("plots.Stop");
   CHECK_FALSE(watch.running());
   window.frames(2);

@@ -36,8 +36,8 @@ std::vector<const Case*> chosen_cases(const std::vector<std::string>& names) {
   for (const Case* one : all) known.push_back(one->name);
   for (const std::string& name : names)
     if (verify::find_case(name) == nullptr)
-      throw UsageError("verify " + name + ": there is no such case" + did_you_mean(name, known, "") +
-                       ". The cases: " + joined(known));
+      throw UsageError("verify " + name + ": there is no such case" + did_you_mean(name, known, ".") +
+                       " The cases: " + joined(known));
   if (!names.empty())
     std::erase_if(all,
                   [&](const Case* one) { return std::find(names.begin(), names.end(), one->name) == names.end(); });
@@ -53,8 +53,8 @@ std::function<void(Preset&)> disturbance(const std::string& text) {
   for (const PresetRow& row : notation())
     if (row.section == "forces" && std::holds_alternative<double Preset::*>(row.field)) known.push_back(row.key);
   if (std::find(known.begin(), known.end(), key) == known.end())
-    throw UsageError("--disturb " + text + ": " + key + " is no constant of the forces" + did_you_mean(key, known, "") +
-                     ". These are: " + joined(known));
+    throw UsageError("--disturb " + text + ": " + key + " is no constant of the forces" +
+                     did_you_mean(key, known, ".") + " These are: " + joined(known));
   std::string factor = equals == std::string::npos ? "" : text.substr(equals + 1);
   if (const std::string fault = number_between(0, 1e6)(factor); !fault.empty())
     throw UsageError("--disturb " + text + ": a factor belongs behind the =, as in " + key + "=1.1. " + fault);
@@ -181,6 +181,8 @@ int verify_cases(const VerifyOptions& options) {
   std::vector<std::string_view> failed;
   for (const Outcome& outcome : outcomes)
     if (!outcome.ok()) failed.push_back(outcome.of->name);
+  out << outcomes.size() - failed.size() << " of " << outcomes.size()
+      << (outcomes.size() == 1 ? " case holds.\n" : " cases hold.\n");
   if (failed.empty()) return exit_done;
   std::cerr << "tyglab: " << failed.size() << " of " << outcomes.size() << " cases failed: " << joined(failed) << ".\n";
   return exit_violation;

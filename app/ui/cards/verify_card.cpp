@@ -41,6 +41,7 @@ void verify_tooltip(Ui& ui, const verify::Case& of, const VerifiedCase* one) {
   const Tokens& c = ui.theme.colors;
   begin_tooltip(ui);
   wrapped(ui, of.sentence, c.text);
+  if (one != nullptr) wrapped(ui, sentence(value_words(of, one)), c.text);
   if (one != nullptr)
     wrapped(ui,
             "Error " + short_number(one->error, 2) + ", at most " + short_number(of.allowed, 2) + " is allowed" +
