@@ -255,6 +255,9 @@ class Engine {
   std::atomic<double> step_progress_ = 0;
 };
 
+/// Why the engine that the preset names does not compute it on any machine, and how to go on, a sentence without its
+/// end; empty if it does.
+std::string engine_problem(const Preset& preset);
 /// Creates the engine that the preset names, with at most `threads` threads: fewer if the cloth is too small for them
 /// to pay off, with results that are the same to the last bit. Throws EngineError if there is no such engine.
 std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice, int threads);

@@ -65,14 +65,28 @@ TEST_CASE("an option of the window before a command: behind it, or left out wher
   check(folder, {"render", "one_weight", "--png", "a.png", "--size", ""}, 2, "--size");
 }
 
-TEST_CASE("presets check: valid, but for an engine that does not run the method") {
+TEST_CASE("presets check: valid, but for an engine that does not compute it, in the words with which run refuses") {
   const test::TemporaryFolder folder;
-  for (const char* method : {"dopri5", "xpbd", "verlet"}) {
-    const std::string name(method);
-    test::write_file(folder / "a.json",
-                     R"({"tyglab_preset": 1, "solver": {"engine": "opencl", "integrator": ")" + name + "\"}}");
+  struct Case {
+    std::string engine, integrator, forces, but;
+  };
+  for (const Case& one :
+       {Case{"opencl", "verlet", "", ""},
+        {"opencl", "implicit_euler", "", ""},
+        {"opencl", "dopri5", "", "The OpenCL engine does not run dopri5"},
+        {"opencl", "xpbd", "", "The OpenCL engine does not run xpbd"},
+        {"opencl", "verlet", R"("B": 1, "kappa_warp": 3)", "The OpenCL engine does not compute F_curl"},
+        {"opencl", "implicit_euler", R"("air_density": 1.2)",
+         "The OpenCL engine does not compute F_air with implicit_euler"},
+        {"plain", "verlet", R"("B": 1, "kappa_warp": 3)", ""},
+        {"plain", "implicit_euler", "", "The plain engine runs explicit methods of fixed dt"}}) {
+    CAPTURE(one.engine + " " + one.integrator + " " + one.forces);
+    test::write_file(folder / "a.json", R"({"solver": {"engine": ")" + one.engine + R"(", "integrator": ")" +
+                                            one.integrator + R"("}, "forces": {)" + one.forces + "}}");
     const auto outcome = check(folder, {"presets", "check", "a.json"}, 0, "a.json is a valid preset");
-    CHECK((outcome.out.find("But OpenCL does not run " + name) != std::string::npos) == (name != "verlet"));
+    CHECK((outcome.out.find("But: ") != std::string::npos) == !one.but.empty());
+    CHECK_MESSAGE(outcome.out.find(one.but) != std::string::npos, outcome.out);
+    if (!one.but.empty()) check(folder, {"run", "a.json", "--steps", "1"}, 5, one.but);
   }
 }
 

@@ -6,8 +6,7 @@
 
 #include "app/base/text.h"
 #include "app/cli/preset_argument.h"
-#include "core/engines/opencl/opencl_devices.h"
-#include "core/integrators/scheme.h"
+#include "core/engines/engine.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
@@ -42,12 +41,9 @@ int check(const std::string& word) {
             << (preset.kind == Kind::one_weight
                     ? std::string("mass on a spring")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
-            << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ")."
-            << (preset.engine == EngineKind::opencl && !runs_on_opencl(scheme(preset.integrator))
-                    ? " But OpenCL does not run " + preset.integrator +
-                          ", so it needs --engine cpu or another --integrator."
-                    : "")
-            << '\n';
+            << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ").";
+  if (const std::string problem = engine_problem(preset); !problem.empty()) std::cout << " But: " << problem << '.';
+  std::cout << '\n';
   return exit_done;
 }
 

@@ -64,4 +64,22 @@ std::string words_of_missing(const Force& force, std::string_view method) {
   return std::string(force.symbol) + (&force == &force::air ? " with " + std::string(method) : "");
 }
 
+std::string opencl_problem(const Preset& preset) {
+  const Scheme& method = scheme(preset.integrator);
+  const char* why = projects(method)         ? "moves particles one by one"
+                    : solves_damping(method) ? "solves equations for the damping"
+                    : counts_passes(method)  ? "makes a fixed number of passes"
+                                             : "chooses its own steps";
+  if (!runs_on_opencl(method))
+    return "The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
+           "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet";
+  const Force* missing = missing_on_opencl(preset);
+  if (missing == nullptr) return {};
+  return "The OpenCL engine does not compute " + words_of_missing(*missing, preset.integrator) +
+         "; use the CPU engine (--engine cpu)" +
+         (missing == &force::air    ? ", an explicit method such as verlet, or air_density = 0"
+          : missing == &force::self ? " or self = off"
+                                    : " or kappa_warp = kappa_weft = 0");
+}
+
 }  // namespace tyglab

@@ -65,6 +65,9 @@ const Force* missing_on_opencl(const Preset& preset);
 /// "F_curl", or "F_air with implicit_euler" where other methods compute it: what is missing, in sentences.
 std::string words_of_missing(const Force& force, std::string_view method);
 
+/// Why no OpenCL device computes the preset, and how to go on, a sentence without its end; empty if they do.
+std::string opencl_problem(const Preset& preset);
+
 /// Particles of the largest cloth whose linear systems a processor solves in one launch; larger cloths need other
 /// kernels.
 inline constexpr int most_solved_in_one_launch = 20000;

@@ -17,16 +17,11 @@
 namespace tyglab::opencl {
 namespace {
 
-constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
-
-void refuse_missing(const Preset& preset) {
-  if (const Force* force = missing_on_opencl(preset))
-    throw EngineError("The OpenCL engine does not compute " + words_of_missing(*force, preset.integrator) +
-                      "; use the CPU engine (--engine cpu)" +
-                      (force == &force::air    ? ", an explicit method such as verlet, or air_density = 0"
-                       : force == &force::self ? " or self = off"
-                                               : " or kappa_warp = kappa_weft = 0"));
+void check_problem(const Preset& preset) {
+  if (const std::string problem = opencl_problem(preset); !problem.empty()) throw EngineError(problem);
 }
+
+constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
 
 template <class R>
 constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
@@ -318,7 +313,7 @@ void OpenClEngine<R>::synchronize(const Tears& tears) {
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
-  refuse_missing(preset);
+  check_problem(preset);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
@@ -509,15 +504,7 @@ void OpenClEngine<R>::accept_changes(const Tears& tears) {
 }
 
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {
-  const Scheme& method = scheme(preset.integrator);
-  const char* why = projects(method)         ? "moves particles one by one"
-                    : solves_damping(method) ? "solves equations for the damping"
-                    : counts_passes(method)  ? "makes a fixed number of passes"
-                                             : "chooses its own steps";
-  if (!runs_on_opencl(method))
-    throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
-                      "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet");
-  refuse_missing(preset);
+  check_problem(preset);
   // Where there is no device, open_device() says so.
   if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);

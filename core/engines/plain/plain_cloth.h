@@ -69,6 +69,8 @@ struct Cloth {
 
 namespace tyglab {
 
+/// Why the plain engine does not compute the preset, and how to go on, a sentence without its end; empty if it does.
+std::string plain_problem(const Preset& preset);
 /// The plain cloth as an engine (`--engine plain`): on one thread, in double whatever the preset's precision. Throws
 /// EngineError for a method that is not written out (scheme.h).
 std::unique_ptr<Engine> make_plain_engine(const Preset& preset, const Lattice& lattice);

@@ -278,10 +278,14 @@ std::vector<StepFeature> PlainEngine::features() const {
 
 }  // namespace
 
+std::string plain_problem(const Preset& preset) {
+  if (is_written_out(scheme(preset.integrator))) return {};
+  return "The plain engine runs explicit methods of fixed dt, and " + preset.integrator +
+         " is none; choose verlet or rk4, or the CPU engine";
+}
+
 std::unique_ptr<Engine> make_plain_engine(const Preset& preset, const Lattice& lattice) {
-  if (!is_written_out(scheme(preset.integrator)))
-    throw EngineError("the plain engine runs explicit methods of fixed dt, and " + preset.integrator +
-                      " is none; choose verlet or rk4, or the CPU engine");
+  if (const std::string problem = plain_problem(preset); !problem.empty()) throw EngineError(problem);
   return std::make_unique<PlainEngine>(preset, lattice);
 }
 
