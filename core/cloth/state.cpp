@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace tyglab {
@@ -148,6 +149,30 @@ std::vector<std::uint8_t> particles_at(const Lattice& lattice, Pins::Mode mode, 
 
 std::vector<std::uint8_t> pinned_particles(const Preset& p) {
   return particles_at(lattice_of(p), p.kind == Kind::cloth ? p.pins.mode : Pins::Mode::none, p.pins.list);
+}
+
+std::vector<bool> moves_pins(const Preset& p) {
+  std::vector<bool> moves(p.pins.motions.size(), true);
+  if (p.kind != Kind::cloth || moves.empty()) return moves;
+  const Lattice lattice = lattice_of(p);
+  const std::vector<std::uint8_t> pinned = pinned_particles(p);
+  std::map<Pins::Mode, bool> named;
+  for (std::size_t n = 0; n < moves.size(); ++n) {
+    const Pins::Motion& motion = p.pins.motions[n];
+    if (motion.mode == Pins::Mode::list) {
+      moves[n] = std::any_of(motion.list.begin(), motion.list.end(), [&](const Pins::Site& site) {
+        return lattice.contains(site.i, site.j) && pinned[std::size_t(site.i) * lattice.columns + site.j] != 0;
+      });
+      continue;
+    }
+    const auto [known, fresh] = named.try_emplace(motion.mode);
+    if (fresh) {
+      const std::vector<std::uint8_t> picked = particles_at(lattice, motion.mode, {});
+      for (std::size_t k = 0; k < picked.size(); ++k) known->second |= picked[k] != 0 && pinned[k] != 0;
+    }
+    moves[n] = known->second;
+  }
+  return moves;
 }
 
 bool same_pins(const Preset& a, const Preset& b) {

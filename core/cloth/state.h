@@ -53,6 +53,8 @@ glm::dvec3 starting_velocity(const Preset& preset);
 std::vector<std::uint8_t> particles_at(const Lattice& lattice, Pins::Mode mode, std::span<const Pins::Site> sites);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);
+/// Whether each of the preset's motions of pins picks a pinned particle of a cloth; of a mass on a spring all count.
+std::vector<bool> moves_pins(const Preset& preset);
 /// Whether both pin the same particles of the same lattice, by a name or by a list.
 bool same_pins(const Preset& a, const Preset& b);
 /// Numbers of the particles that are set in such a mask, rising.

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/cloth/state.h"
 #include "core/contact/self_contact.h"
 #include "core/integrators/scheme.h"
 #include "core/io/json_tree.h"
@@ -89,12 +90,16 @@ void drop_other_shapes(Body& body) {
     if (!shape_has(body.shape, row.key)) std::visit([&](auto field) { body.*field = Body().*field; }, row.field);
 }
 
+std::string too_far(double value) {
+  return "must hold numbers from -1000 to 1000, not " + shortest_number(value);
+}
+
 std::string path_problem(const std::vector<PathKey>& path) {
   for (std::size_t n = 0; n < path.size(); ++n) {
     const PathKey& key = path[n];
     const std::string at = "[" + std::to_string(n) + "] ";
     for (const double value : {key.t, key.x.x, key.x.y, key.x.z})
-      if (!(std::abs(value) <= farthest_key)) return at + "must hold numbers from -1000 to 1000";
+      if (!(std::abs(value) <= farthest_key)) return at + too_far(value);
     if (n > 0 && !(key.t > path[n - 1].t)) return at + "must be later than the one before";
   }
   return {};
@@ -128,8 +133,9 @@ std::string motion_problem(const Preset& p, const Pins::Motion& motion) {
   if (const auto problem = path_problem(motion.path); !problem.empty()) return "path" + problem;
   for (const auto& [key, v] : {std::pair("spin", motion.spin), std::pair("center", motion.center)})
     for (int c = 0; c < 3; ++c)
-      if (!(std::abs(v[c]) <= farthest_key)) return std::string(key) + " must hold numbers from -1000 to 1000";
-  if (!(motion.until >= 0 && motion.until <= farthest_key)) return "until must be a number from 0 to 1000 s";
+      if (!(std::abs(v[c]) <= farthest_key)) return std::string(key) + " " + too_far(v[c]);
+  if (!(motion.until >= 0 && motion.until <= farthest_key))
+    return "until must be a number from 0 to 1000 s, not " + shortest_number(motion.until);
   return {};
 }
 
@@ -138,6 +144,35 @@ std::string motions_problem(const Preset& p) {
     if (const auto problem = motion_problem(p, p.pins.motions[n]); !problem.empty())
       return "[" + std::to_string(n) + "] " + problem;
   return {};
+}
+
+/// Where a motion picks no pinned particle, which only files and settings are asked for: pins come and go in the
+/// window.
+std::string idle_motion_problem(const Preset& p) {
+  const std::vector<bool> moves = moves_pins(p);
+  const auto idle = std::find(moves.begin(), moves.end(), false);
+  return idle == moves.end() ? ""
+                             : "[" + std::to_string(idle - moves.begin()) +
+                                   "] pins: none of these particles is pinned; allowed: those of cloth.pins";
+}
+
+/// The section that has the key, in quotes, or where else it belongs; empty if it is unknown everywhere.
+std::string home_of(std::string_view key) {
+  const auto is_one_of = [&](std::initializer_list<std::string_view> keys) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  const auto quantities = fabric_quantities();
+  std::string_view section;
+  if (is_one_of({"tyglab_preset", "kind", "name", "description", "bodies", "fabric"})) return "the top level";
+  if (is_one_of({"pins", "pin_motions"}))
+    section = "cloth";
+  else if (is_one_of({"engine", "precision"}))
+    section = "solver";
+  else if (const PresetRow* row = find_row(key))
+    section = row->section;
+  else if (std::any_of(quantities.begin(), quantities.end(), [&](const auto& one) { return one.key == key; }))
+    section = "fabric";
+  return section.empty() ? "" : "\"" + std::string(section) + "\"";
 }
 
 /// Reads values of one source (a file, a --set) into a preset; knows how to complain.
@@ -157,6 +192,16 @@ class Reader {
     fail(node.line, path,
          "must be " + std::string(expected) + ", not " +
              (told ? "the string \"" + node.text + "\"" : std::string(type_name(node.type))));
+  }
+
+  /// Refuses what is no list of that many.
+  void check_list(const JsonNode& node, const std::string& path, std::string_view expected, std::size_t size) const {
+    if (node.type != Type::list) wrong_type(node, path, expected);
+    const std::size_t count = node.items.size();
+    if (count != size)
+      fail(node.line, path,
+           "must be " + std::string(expected) + ", not of " + std::to_string(count) +
+               (count == 1 ? " number" : " numbers"));
   }
 
   /// The other constant's key in place of a number: this one is absent. What stands for that is no number that a file
@@ -213,9 +258,7 @@ class Reader {
            "must be a string of at most " + std::to_string(most) + " bytes; it has " + std::to_string(out.size()));
   }
   void value(const JsonNode& node, const std::string& path, glm::dvec3& out) const {
-    if (node.type != Type::list) wrong_type(node, path, "a list of three numbers");
-    if (node.items.size() != 3)
-      fail(node.line, path, "must be a list of three numbers, not of " + std::to_string(node.items.size()));
+    check_list(node, path, "a list of three numbers", 3);
     for (int c = 0; c < 3; ++c) value(node.items[c], path + "[" + std::to_string(c) + "]", out[c]);
   }
 
@@ -233,7 +276,7 @@ class Reader {
     for (std::size_t n = 0; n < node.items.size(); ++n) {
       const JsonNode& item = node.items[n];
       const std::string item_path = path + "[" + std::to_string(n) + "]";
-      if (item.type != Type::list || item.items.size() != 2) wrong_type(item, item_path, "[row, column]");
+      check_list(item, item_path, "[row, column]", 2);
       Pins::Site site;
       value(item.items[0], item_path, site.i);
       value(item.items[1], item_path, site.j);
@@ -256,6 +299,9 @@ class Reader {
       else
         unknown(child.line, at, key, {"pins", "path", "spin", "center", "until"});
     }
+    if (node.find("pins") == nullptr) fail(node.line, path, "has no pins: which of the pinned particles it moves");
+    if (out.until != 0 && out.spin == glm::dvec3(0))
+      fail(node.find("until")->line, path + ".until", "ends a spin, and there is none; add spin, or remove until");
   }
 
   void pin_motions(const JsonNode& node, const std::string& path, std::vector<Pins::Motion>& out) const {
@@ -273,7 +319,7 @@ class Reader {
     for (std::size_t n = 0; n < out.size(); ++n) {
       const JsonNode& item = node.items[n];
       const std::string item_path = path + "[" + std::to_string(n) + "]";
-      if (item.type != Type::list || item.items.size() != 4) wrong_type(item, item_path, "[t, x, y, z]");
+      check_list(item, item_path, "[t, x, y, z]", 4);
       value(item.items[0], item_path, out[n].t);
       for (int c = 0; c < 3; ++c) value(item.items[std::size_t(c) + 1], item_path, out[n].x[c]);
     }
@@ -311,6 +357,8 @@ class Reader {
     if (in("solver") && name == "engine") return choice(node, path, engine_names, p.engine);
     if (in("solver") && name == "precision") return choice(node, path, precision_names, p.precision);
     if (const PresetRow* row = find_row(name); row && in(row->section)) return field(node, path, *row, p);
+    if (const std::string home = home_of(name); !section.empty() && !home.empty())
+      misplaced(node.line, path, name, home);
     std::vector<std::string_view> known;
     if (in("cloth")) known.insert(known.end(), {"pins", "pin_motions"});
     if (in("solver")) known.insert(known.end(), {"engine", "precision"});
@@ -347,6 +395,10 @@ class Reader {
     return false;
   }
 
+  [[noreturn]] void misplaced(int line, const std::string& path, const std::string& key,
+                              const std::string& home) const {
+    fail(line, path, "unknown key; " + key + " belongs to " + home);
+  }
   [[noreturn]] void unknown(int line, const std::string& path, const std::string& key,
                             const std::vector<std::string_view>& known) const {
     fail(line, path, "unknown key" + did_you_mean(key, known, "; known: " + joined(known)));
@@ -456,6 +508,8 @@ void apply_setting(const Setting& setting, Preset& p) {
     const auto it = std::find(section_names.begin(), section_names.end(), key.substr(0, dot));
     if (it != section_names.end()) section = *it, key.erase(0, dot + 1);
   }
+  if (key == "fabric" || key.starts_with("fabric."))
+    reader.fail(0, key, "the section fabric stands only in files; set m, B, k_warp, k_weft and k_shear");
   const JsonNode node = setting_value(setting, key, reader);
   if (section.empty() && reader.top_key(key, node, p)) return;
   if (section.empty() && key.starts_with("bodies[")) return apply_to_body(key, node, reader, p);
@@ -509,6 +563,7 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
   for (const auto& [name, node] : root.members) {
     if (name == "tyglab_preset" || name == "fabric" || reader.top_key(name, node, preset)) continue;
     if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
+      if (const std::string home = home_of(name); !home.empty()) reader.misplaced(node.line, name, name, home);
       std::vector<std::string_view> known(section_names.begin(), section_names.end());
       known.insert(known.end(), {"tyglab_preset", "kind", "name", "description", "fabric"});
       reader.unknown(node.line, name, name, known);
@@ -524,6 +579,8 @@ Preset preset_from(const JsonNode& root, std::string_view source, const std::fil
   if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
     reader.fail(pins_line, "cloth.pins", problem);
   if (const auto problem = motions_problem(preset); !problem.empty())
+    reader.fail(motions_line, "cloth.pin_motions", problem);
+  if (const auto problem = idle_motion_problem(preset); !problem.empty())
     reader.fail(motions_line, "cloth.pin_motions", problem);
   // After all others, since it depends on L: what they say is right, so whatever is not is due to the fabric.
   if (const JsonNode* fabric = root.find("fabric")) {
@@ -551,6 +608,10 @@ Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& se
   for (const Setting& setting : settings) check_shape(setting, changed);
   for (Body& body : changed.bodies) drop_other_shapes(body);
   if (const auto problem = check_preset(changed); !problem.empty()) throw PresetError("--set: " + problem);
+  for (const Setting& setting : settings)
+    if (setting.key == "pin_motions" || setting.key == "cloth.pin_motions")
+      if (const auto problem = idle_motion_problem(changed); !problem.empty())
+        Reader(setting.typed).fail(0, setting.key, problem);
   return changed;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/cloth/state.h"
 #include "core/io/preset_io.h"
 #include "core/model/effect.h"
 #include "core/model/notation.h"
@@ -53,13 +54,18 @@ std::string path_text(const std::vector<PathKey>& path) {
   return "[" + joined(path, ", ", key_text) + "]";
 }
 
-std::string motions_text(const std::vector<Pins::Motion>& motions) {
+/// Without motions that pick no pinned particle: nothing reads them.
+std::string motions_text(const Preset& p) {
+  const std::vector<bool> moves = moves_pins(p);
+  std::vector<Pins::Motion> motions;
+  for (std::size_t n = 0; n < moves.size(); ++n)
+    if (moves[n]) motions.push_back(p.pins.motions[n]);
   const auto text_of = [](const Pins::Motion& motion) {
     std::string text = "{\"pins\": " + sites_text(motion.mode, motion.list);
     if (!motion.path.empty()) text += ", \"path\": " + path_text(motion.path);
     if (motion.spin != glm::dvec3(0)) text += ", \"spin\": " + list_text(motion.spin);
     if (motion.center != glm::dvec3(0)) text += ", \"center\": " + list_text(motion.center);
-    if (motion.until != 0) text += ", \"until\": " + shortest_number(motion.until);
+    if (motion.until != 0 && motion.spin != glm::dvec3(0)) text += ", \"until\": " + shortest_number(motion.until);
     return text + "}";
   };
   return "[" + joined(motions, ", ", text_of) + "]";
@@ -101,7 +107,8 @@ std::string section_text(std::string_view section, const Preset& p, bool hashed)
     if (row.section == section && !is_absent(row, p) && !(hashed && is_left_out(row, p)))
       add(row.key, field_text(row, p));
   if (section == "cloth") add("pins", sites_text(p.pins.mode, p.pins.list));
-  if (section == "cloth" && !p.pins.motions.empty()) add("pin_motions", motions_text(p.pins.motions));
+  if (const std::string motions = section == "cloth" ? motions_text(p) : "[]"; motions != "[]")
+    add("pin_motions", motions);
   if (section == "solver")
     add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
   return "  " + json_text(section) + ": {" + text + "}";
@@ -141,7 +148,7 @@ std::vector<std::string> settings_between(const Preset& from, const Preset& to) 
   add("name", setting_text(from.name), setting_text(to.name));
   for (const PresetRow& row : notation()) add(row.key, setting_text(row, from), setting_text(row, to));
   add("pins", compact(sites_text(from.pins.mode, from.pins.list)), compact(sites_text(to.pins.mode, to.pins.list)));
-  add("pin_motions", compact(motions_text(from.pins.motions)), compact(motions_text(to.pins.motions)));
+  add("pin_motions", compact(motions_text(from)), compact(motions_text(to)));
   add("engine", std::string(name_of(from.engine)), std::string(name_of(to.engine)));
   add("precision", std::string(name_of(from.precision)), std::string(name_of(to.precision)));
   add("bodies", compact(bodies_text(from.bodies)), compact(bodies_text(to.bodies)));

@@ -395,7 +395,8 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
   // A key longer than any known one by far cannot be a slip of the finger, and would only cost time.
   if (word.size() > 64) return std::nullopt;
   std::optional<std::string_view> best;
-  int best_distance = std::max(2, int(word.size()) / 3) + 1;
+  // Nor is one meant of which no letter is left.
+  int best_distance = std::min(std::max(2, int(word.size()) / 3) + 1, int(word.size()));
   for (std::string_view candidate : known) {
     const int distance = edit_distance(word, candidate);
     if (distance < best_distance) best = candidate, best_distance = distance;

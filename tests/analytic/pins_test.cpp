@@ -136,9 +136,16 @@ TEST_CASE("motions of pins are read, written, refused and scaled") {
   CHECK(with_resolution(preset, 2).pins.motions[0].list[1] == Pins::Site{0, 62});
   for (const auto& [wrong, why] : std::vector<std::pair<std::string, std::string>>{
            {R"([{"pins": [[0, 32]]}])", "outside the cloth"},
-           {R"([{"path": [[1, 0, 0, 0], [1, 0, 0, 0]]}])", "later than the one before"},
-           {R"([{"spin": [0, 1e9, 0]}])", "spin must hold numbers"},
-           {R"([{"until": -1}])", "until must be"},
+           {R"([{"pins": "top_row", "path": [[1, 0, 0, 0], [1, 0, 0, 0]]}])", "later than the one before"},
+           {R"([{"pins": "top_row", "path": [[1, 0, 0]]}])", "[0].path[0]: must be [t, x, y, z], not of 3 numbers"},
+           {R"([{"pins": "top_row", "path": [[1, 0, 2e3, 0]]}])", "numbers from -1000 to 1000, not 2000"},
+           {R"([{"pins": "top_row", "spin": [0, 1e6, 0]}])", "spin must hold numbers from -1000 to 1000, not 1000000"},
+           {R"([{"pins": "top_row", "spin": [0, 1, 0], "until": -1}])",
+            "until must be a number from 0 to 1000 s, not -1"},
+           {R"([{"spin": [0, 1, 0]}])", "[0]: has no pins"},
+           {R"([{"pins": "top_row"}, {"pins": "top_row", "until": 3}])", "[1].until: ends a spin"},
+           {R"([{"pins": "top_row"}, {"pins": [[1, 0]], "spin": [0, 1, 0]}])", "[1] pins: none of these particles"},
+           {R"([{"pins": "none", "spin": [0, 1, 0]}])", "[0] pins: none of these particles"},
            {R"([{"spn": [0, 1, 0]}])", "did you mean spin"}}) {
     CAPTURE(wrong);
     std::string told;
@@ -149,6 +156,24 @@ TEST_CASE("motions of pins are read, written, refused and scaled") {
     }
     CHECK_MESSAGE(told.find(why) != std::string::npos, told);
   }
+}
+
+TEST_CASE("a file's motion has pins that are pinned; once they are not any longer, none is written") {
+  Preset preset = with_settings(Preset(), {R"(pin_motions=[{"pins": "top_row", "spin": [0, 2, 0]}])"});
+  const std::string text = preset_to_json(preset);
+  CHECK(parse_preset(text, "file") == preset);
+  std::string unpinned = text;
+  unpinned.replace(unpinned.find("\"top_corners\""), 13, "[[5, 5]]");
+  std::string told;
+  try {
+    parse_preset(unpinned, "file");
+  } catch (const PresetError& error) {
+    told = error.what();
+  }
+  CHECK_MESSAGE(told.find("cloth.pin_motions: [0] pins: none of these particles is pinned") != std::string::npos, told);
+  preset.pins.mode = Pins::Mode::none;
+  CHECK(parse_preset(preset_to_json(preset), "file").pins.motions.empty());
+  CHECK(with_settings(Preset(), settings_between(Preset(), preset)).pins.mode == Pins::Mode::none);
 }
 
 }  // namespace tyglab::pins_test

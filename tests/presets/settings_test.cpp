@@ -139,6 +139,10 @@ TEST_CASE("a misspelt key of --set gets the nearest known one") {
   CHECK(error_of("intergrator=euler").find("did you mean integrator") != std::string::npos);
   CHECK(error_of("integrator=eular").find("did you mean euler") != std::string::npos);
   CHECK(error_of("k_s=-4").find("k_s") != std::string::npos);
+  CHECK(error_of("e=1").find("e: unknown key; known: ") != std::string::npos);
+  CHECK(error_of("cloth.k_s=5").ends_with("k_s belongs to \"forces\""));
+  for (const char* of_a_fabric : {"fabric.mass=200", "fabric={}"})
+    CHECK(error_of(of_a_fabric).ends_with("stands only in files; set m, B, k_warp, k_weft and k_shear"));
 }
 
 }  // namespace tyglab::settings_test

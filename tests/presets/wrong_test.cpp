@@ -43,9 +43,9 @@ TEST_CASE("a path that cannot be followed is refused") {
   const auto body = [](const char* rest) { return std::string("{\"bodies\": [{\"r\": 0.1, ") + rest + "}]}"; };
   for (const Wrong& wrong :
        {Wrong{body("\"path\": 3"), {"bodies[0].path", "[t, x, y, z]"}},
-        {body("\"path\": [[0, 1, 2]]"), {"bodies[0].path[0]", "[t, x, y, z]"}},
+        {body("\"path\": [[0, 1, 2]]"), {"bodies[0].path[0]: must be [t, x, y, z], not of 3 numbers"}},
         {body("\"path\": [[0, 0, 0, 0], [0, 1, 0, 0]]"), {"bodies[0].path", "[1]", "later"}},
-        {body("\"path\": [[0, 0, 2e3, 0]]"), {"bodies[0].path", "[0]", "-1000 to 1000"}},
+        {body("\"path\": [[0, 0, 2e3, 0]]"), {"bodies[0].path", "[0]", "-1000 to 1000, not 2000"}},
         {body("\"velocity\": [1, 0, 0], \"path\": [[0, 0, 0, 0]]"), {"bodies[0].path", "not both"}}})
     check_contains(error_of(wrong.text), wrong.parts);
 }
@@ -55,15 +55,27 @@ TEST_CASE("an unknown key is refused with the nearest known one, its line and it
        {Wrong{on_line_37("forces", "\"k_x\": 5"), {":37", "forces.k_x", "did you mean k"}},
         {on_line_37("forces", "\"gravity\": 5"), {":37", "forces.gravity", "k_s"}},
         {on_line_37("cloth", "\"row\": 5"), {":37", "cloth.row", "did you mean rows"}},
-        {on_line_37("cloth", "\"k_s\": 5"), {":37", "cloth.k_s"}},
+        {on_line_37("forces", "\"e\": 5"), {":37", "forces.e: unknown key; known: k_s"}},
         {on_line_37("solver", "\"intergrator\": \"verlet\""), {":37", "did you mean integrator"}},
         {on_line_37("tearing", "\"Fmax\": 5"), {":37", "tearing.Fmax", "did you mean F_max"}},
         {"{\"fources\": {}}", {":1", "fources", "did you mean forces"}},
-        {"{\"k_s\": 5}", {":1", "k_s"}},
         {"{\"bodies\": [{\"shape\": \"plane\", \"hight\": 0}]}", {"bodies[0].hight"}},
         {"{\"bodies\": [{}, {\"frictoin\": 0}]}", {"bodies[1].frictoin", "did you mean friction"}}}) {
     check_contains(error_of(wrong.text), wrong.parts);
   }
+}
+
+TEST_CASE("of a key that stands in the wrong place it is told where it belongs") {
+  for (const Wrong& wrong :
+       {Wrong{on_line_37("cloth", "\"k_s\": 5"), {":37", "cloth.k_s: unknown key; k_s belongs to \"forces\""}},
+        {on_line_37("forces", "\"pins\": \"none\""), {"forces.pins: unknown key; pins belongs to \"cloth\""}},
+        {on_line_37("cloth", "\"mass\": 200"), {"mass belongs to \"fabric\""}},
+        {on_line_37("view", "\"engine\": \"cpu\""), {"engine belongs to \"solver\""}},
+        {on_line_37("cloth", "\"name\": \"a\""), {"name belongs to the top level"}},
+        {"{\"k_s\": 5}", {":1", "k_s: unknown key; k_s belongs to \"forces\""}},
+        {"{\"pin_motions\": []}", {"pin_motions belongs to \"cloth\""}},
+        {"{\"precision\": \"double\"}", {"precision belongs to \"solver\""}}})
+    check_contains(error_of(wrong.text), wrong.parts);
 }
 
 TEST_CASE("a doubled key is refused wherever it stands") {
