@@ -7,6 +7,7 @@
 
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
+#include "core/theory/advice.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"
 
@@ -130,6 +131,14 @@ TEST_CASE("a preset in a file names no texture outside its folder") {
   Preset preset;
   preset.texture = absolute;
   CHECK(parse_preset(preset_to_json(preset), "the last session") == preset);
+}
+
+TEST_CASE("bow stays within its limit with every B that its page has one try") {
+  Preset bow = load_preset(std::string(test::source_dir) + "/app/presets/bow.json");
+  for (const double B : {0.2, 0.02, 0.002}) {
+    bow.B = B;
+    CHECK(bow.dt <= advised_dt(bow, bow.integrator));
+  }
 }
 
 TEST_CASE("every shipped preset is valid, has a name and a description, and the contract's names are there") {
