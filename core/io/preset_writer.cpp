@@ -88,7 +88,7 @@ std::string bodies_text(const std::vector<Body>& bodies) {
 }
 
 /// Constants that the first release did not have. A hash leaves them out where they have their defaults, so that a
-/// scene without them keeps its own.
+/// scene without them keeps its own; and so it does a section of nothing else.
 constexpr std::array<std::string_view, 15> later{"self",    "thickness", "friction", "B",          "twist",
                                                  "contact", "k_warp",    "k_weft",   "k_shear",    "air_density",
                                                  "u",       "C_N",       "C_T",      "kappa_warp", "kappa_weft"};
@@ -176,7 +176,9 @@ std::string json_of(const Preset& p, bool hashed) {
   std::string text = "{\n  \"tyglab_preset\": " + std::to_string(preset_version) +
                      ", \"kind\": " + json_text(name_of(p.kind)) + ",\n  \"name\": " + json_text(p.name) +
                      ",\n  \"description\": " + json_text(p.description);
-  for (std::string_view section : section_names) text += ",\n" + section_text(section, p, hashed);
+  for (std::string_view section : section_names)
+    if (const std::string values = section_text(section, p, hashed); !hashed || !values.ends_with("{}"))
+      text += ",\n" + values;
   return text + "\n}\n";
 }
 
