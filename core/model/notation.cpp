@@ -212,9 +212,9 @@ const auto rows = std::to_array<PresetRow>({
      "of each step's motion also keeps layers from crossing.",
      false, Kind::cloth, true},
     {"contact", "thickness", "r_c", "Thickness in contact", "Kontakttjocklek", "m", &Preset::thickness, 0, 100,
-     logarithmic, force, "", "Layers begin to repel each other at twice this distance; 0: 0.15 L.", true, Kind::cloth,
+     logarithmic, force, "", "Layers begin to repel each other at twice this distance; 0: 0.15 L.", false, Kind::cloth,
      true},
-    {"contact", "friction", "mu_c", "Friction between layers", "Friktion mellan lager", "", &Preset::self_friction, 0,
+    {"contact", "friction", "μ_c", "Friction between layers", "Friktion mellan lager", "", &Preset::self_friction, 0,
      10, linear, force, "", "Coulomb friction between layers of the cloth.", true, Kind::cloth, true},
 
     {"solver", "integrator", "", "Integrator", "Approximationsmetod", "", &Preset::integrator, 0, 0, linear, integrator,

@@ -20,10 +20,11 @@ inline constexpr std::array<std::string_view, 2> precision_names{"float", "doubl
 /// Values of solver.contact: within the step, at its end (the report's rule), or in steps that end at each impact.
 inline constexpr std::array<std::string_view, 3> contact_names{"local", "step", "global"};
 /// As people call them.
-/// What keeps the cloth from passing through itself: nothing, a force, or that force and a bound of its motion.
-inline constexpr std::array<std::string_view, 3> self_names{"off", "repel", "guard"};
 inline constexpr std::array<const char*, contact_names.size()> contact_titles{"when met", "at end of step",
                                                                               "split step"};
+/// What keeps the cloth from passing through itself: nothing, a force, or that force and a bound of its motion.
+inline constexpr std::array<std::string_view, 3> self_names{"off", "repel", "guard"};
+inline constexpr std::array<const char*, self_names.size()> self_titles{"cross", "repel", "guard"};
 constexpr std::string_view name_of(Kind v) {
   return kind_names[std::size_t(v)];
 }

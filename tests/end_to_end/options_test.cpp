@@ -125,7 +125,9 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
     CHECK(test::read_file(folder / "a.json").find("\"unconverged\": 0") != std::string::npos);
     words.insert(words.end(), {"--set", "iterations=1"});
     const auto outcome = check(folder, words, 0, "3 of 3 steps stopped early (up to ");
-    CHECK(test::lines(outcome.err).size() == 2);  // the other: that these steps have added energy
+    // The others: that these steps have added energy, and perhaps that the cloth now crosses itself.
+    const bool crosses = outcome.err.find("The cloth passes through itself") != std::string::npos;
+    CHECK(test::lines(outcome.err).size() == (crosses ? 3 : 2));
     CHECK(outcome.err.find("times the energy the scene can supply") != std::string::npos);
     CHECK(outcome.err.find("linear solve. Use a smaller dt or more iterations.") != std::string::npos);
     const std::string json = test::read_file(folder / "a.json");

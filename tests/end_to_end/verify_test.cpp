@@ -21,9 +21,10 @@ TEST_CASE("verify writes the cases that are named, with the fields that programs
   CHECK(run.code == 0);
   CHECK(run.err.empty());
   const auto lines = test::lines(run.out);
-  REQUIRE(lines.size() == 4);  // machine, head, a line a case
+  REQUIRE(lines.size() == 5);  // machine, head, a line a case, how many hold
   CHECK(lines[2].starts_with("free_fall_first_order "));
   CHECK(lines[3].starts_with("slide "));
+  CHECK(lines[4] == "2 of 2 cases hold.");
   for (std::size_t n = 2; n < 4; ++n) CHECK(lines[n].ends_with("  ok"));
   const auto json = read_json(folder / "v.json");
   for (const char* key : {"machine", "version", "build", "date"}) CHECK(json.contains(key));

@@ -249,9 +249,10 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
                      "Pairs of triangles that cross or touch each other: the cloth passes through itself. They are "
                      "outlined in the picture."});
   if (guards_itself(ui.session.requested_preset()))
-    facts.push_back({"cut short by the guard", grouped(engine.held_back()) + " moves of particles",
-                     "The guard has shortened these moves so that layers do not cross. With a smaller dt it cuts less "
-                     "or nothing, and the motion has the accuracy of the method."});
+    facts.push_back(
+        {"cut short by the guard", grouped(engine.held_back()) + " moves",
+         "The guard has shortened these moves of particles so that layers do not cross. With a smaller dt it cuts less "
+         "or nothing, and the motion has the accuracy of the method."});
   facts.push_back({"effects turned off", without.empty() ? "nothing" : without});
   const std::string& why = ui.session.costs.why_copied();
   facts.push_back({"positions are drawn from", drawn_from(ui.session.costs.vertex_path()),

@@ -200,24 +200,6 @@ void view_section(Ui& ui) {
   if (cloth) tool_rows(ui);
 }
 
-/// When bodies act, where there are some.
-void contact_row(Ui& ui) {
-  come_into_sight(ui, "contact", row_columns(ui).height);
-  labeled_row(ui, "contact", [&](float width) {
-    const std::string now = ui.session.requested_preset().contact;
-    const int chosen = int(std::find(contact_names.begin(), contact_names.end(), now) - contact_names.begin());
-    if (const int k = segments(ui, "contact", contact_titles.data(), int(contact_titles.size()), chosen, 11, width);
-        k >= 0 && k != chosen) {
-      Preset next = ui.session.requested_preset();
-      next.contact = contact_names[std::size_t(k)];
-      ui.session.propose(std::move(next));
-    }
-    tooltip(ui, gui::item_id(),
-            "When bodies act: at the time of contact within the step (order 2 without damping), at the end of the step "
-            "as in the report (order 1), or in steps that are split at every impact (the method's order, slow).");
-  });
-}
-
 void body_sections(Ui& ui) {
   if (!section(ui, "Bodies")) return;
   for (int k = 0; k < int(ui.session.requested_preset().bodies.size()); ++k) {
@@ -225,7 +207,11 @@ void body_sections(Ui& ui) {
     body_block(ui, k);
     ImGui::PopID();
   }
-  if (!ui.session.requested_preset().bodies.empty()) contact_row(ui);
+  if (!ui.session.requested_preset().bodies.empty())
+    word_row(
+        ui, "contact", "contact", &Preset::contact, contact_names, contact_titles,
+        "When bodies act: at the time of contact within the step (order 2 without damping), at the end of the step "
+        "as in the report (order 1), or in steps that are split at every impact (the method's order, slow).");
   const bool room = no_more_bodies(ui).empty();
   if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();

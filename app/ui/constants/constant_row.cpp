@@ -1,6 +1,7 @@
 #include "app/ui/constants/constants_panel.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -349,6 +350,22 @@ void constant_row(Ui& ui, const PresetRow& row) {
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
   draw_line(ui, line);
   ImGui::PopID();
+}
+
+void word_row(Ui& ui, const char* key, const char* label, std::string Preset::*field,
+              std::span<const std::string_view> names, std::span<const char* const> titles, const char* tip) {
+  assert(names.size() == titles.size());
+  come_into_sight(ui, key, row_columns(ui).height);
+  labeled_row(ui, label, [&](float width) {
+    const std::string now = ui.session.requested_preset().*field;
+    const int chosen = int(std::find(names.begin(), names.end(), now) - names.begin());
+    if (const int k = segments(ui, key, titles.data(), int(titles.size()), chosen, 11, width); k >= 0 && k != chosen) {
+      Preset next = ui.session.requested_preset();
+      next.*field = names[std::size_t(k)];
+      ui.session.propose(std::move(next));
+    }
+    tooltip(ui, gui::item_id(), tip);
+  });
 }
 
 void fabric_quantity_row(Ui& ui, const FabricQuantity& quantity) {

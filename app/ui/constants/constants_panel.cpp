@@ -195,25 +195,6 @@ std::string fabric_words(const Fabric& fabric, double g) {
 }
 
 /// The choice of a fabric, and what the present constants come to in the units in which fabrics are sold and measured.
-/// Whether the cloth meets itself.
-void self_row(Ui& ui) {
-  come_into_sight(ui, "self", row_columns(ui).height);
-  labeled_row(ui, "layers", [&](float width) {
-    const std::string now = ui.session.requested_preset().self;
-    const int chosen = int(std::find(self_names.begin(), self_names.end(), now) - self_names.begin());
-    constexpr std::array<const char*, self_names.size()> titles{"cross", "repel", "guard"};
-    if (const int k = segments(ui, "self", titles.data(), int(titles.size()), chosen, 11, width);
-        k >= 0 && k != chosen) {
-      Preset next = ui.session.requested_preset();
-      next.self = self_names[std::size_t(k)];
-      ui.session.propose(std::move(next));
-    }
-    tooltip(ui, gui::item_id(),
-            "Layers of the cloth pass through each other, repel each other when they are near, or are also kept apart "
-            "by a bound of each step's motion.");
-  });
-}
-
 void fabric_row(Ui& ui) {
   const Preset& now = ui.session.requested_preset();
   const auto chosen =
@@ -363,7 +344,10 @@ void constants_sections(Ui& ui) {
     if (!section(ui, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
     if (name == "Integrator") integrator_row(ui);
     if (name == "Fabric") fabric_row(ui);
-    if (name == "Self-contact") self_row(ui);
+    if (has_own_row)
+      word_row(ui, "self", "layers", &Preset::self, self_names, self_titles,
+               "Layers of the cloth pass through each other, repel each other when they are near, or are also kept "
+               "apart by a bound of each step's motion.");
     rows(ui, wanted);
     if (name == "Integrator") step_limit_row(ui), stability_row(ui);
     if (name == "Cloth" && cloth) resolution_row(ui), pins_row(ui);

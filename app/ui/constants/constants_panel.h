@@ -51,6 +51,9 @@ void body_row(Ui& ui, const BodyRow& row, int index);
 
 /// Scrolls the column where the row of that key and height, which is to be drawn next, is to be in sight and is not.
 void come_into_sight(Ui& ui, std::string_view key, float height);
+/// A constant that is one of some words, which panels show by their titles.
+void word_row(Ui& ui, const char* key, const char* label, std::string Preset::*field,
+              std::span<const std::string_view> names, std::span<const char* const> titles, const char* tip);
 
 /// A line whose slider column `content` fills (combos, buttons): a plain label stands where symbols do.
 void labeled_row(Ui& ui, const char* label, const std::function<void(float width)>& content);

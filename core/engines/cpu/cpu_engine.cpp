@@ -530,7 +530,10 @@ std::size_t CpuEngine<R, Present>::bytes() const {
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
-  return total;
+  if (self_ == nullptr) return total;
+  for (const auto* list : {&self_->before, &self_->x, &self_->v, &self_->F})
+    total += list->capacity() * sizeof(glm::dvec3);
+  return total + self_->contact.bytes() + self_->rows_before.bytes() + self_->force.bytes();
 }
 
 template <class R, unsigned Present>
