@@ -83,6 +83,7 @@ MovingPins::MovingPins(const Preset& preset, std::span<const int> pinned, const 
   const Lattice lattice = lattice_of(preset);
   const std::vector<Pose> poses = poses_at(motions, t);
   std::vector<std::vector<std::uint8_t>> masks;
+  masks.reserve(motions.size());
   for (const Pins::Motion& motion : motions) masks.push_back(particles_at(lattice, motion.mode, motion.list));
   for (const int particle : pinned)
     for (std::size_t n = 0; n < motions.size(); ++n)
