@@ -117,6 +117,10 @@ std::string self_contact_problem(const Preset& p) {
     return "contact.thickness: " + quantity(p.thickness, "m") +
            " is too thick for a spacing of L = " + quantity(p.L, "m") + "; at most " + quantity(most, "m") +
            ", or a coarser cloth";
+  // Nearer than that, all parts of the cloth are near dozens of others.
+  if (constexpr double least = 0.2; p.initial_stretch < least)
+    return "cloth.initial_stretch: must be at least " + shortest_number(least) +
+           " with contact of the cloth with itself (contact.self)";
   if (!takes_self_contact(scheme(p.integrator))) {
     std::vector<std::string_view> can;
     for (const Scheme& method : schemes())

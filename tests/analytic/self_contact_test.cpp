@@ -345,7 +345,9 @@ TEST_CASE("what cannot be is refused, with the cure") {
   CHECK(check_preset(p).empty());
   p.thickness = 0.3 * p.L;
   CHECK(check_preset(p).find("contact.thickness: 0.006 m is too thick for a spacing of L = 0.02 m") == 0);
-  p.thickness = 0, p.integrator = "implicit_euler";
+  p.thickness = 0, p.initial_stretch = 0.1;
+  CHECK(check_preset(p).find("cloth.initial_stretch: must be at least 0.2") == 0);
+  p.initial_stretch = 1, p.integrator = "implicit_euler";
   CHECK(check_preset(p).find("contact.self: implicit_euler does not compute contact of the cloth with itself") == 0);
   p.integrator = "verlet", p.self = "gaurd";
   CHECK(check_preset(p).find("guard") != std::string::npos);

@@ -125,6 +125,7 @@ Preset preset_of(Random& random, bool with_opencl) {
   if (random.below(6) == 0) make_tear(random, preset);
   if (random.below(8) == 0 && takes_self_contact(scheme(preset.integrator))) {
     preset.self = self_names[1 + std::size_t(random.below(2))];
+    preset.initial_stretch = std::max(preset.initial_stretch, 0.2);
     preset.thickness = random.below(2) == 0 ? 0 : random.uniform(0, largest_thickness(preset.L));
   }
   preset.contact = contact_names[std::size_t(random.below(int(contact_names.size())))];
@@ -159,9 +160,11 @@ double most_bytes(const RunCase& one) {
   if (p.kind == Kind::one_weight) return 0;
   // A few dozen numbers for each vector, spring and backup, and each row of text of the outputs.
   const double particle = 6e3;
+  // Lists of what is near in a cloth that is pressed together.
+  const double pairs = p.self != "off" ? 2e4 : 0;
   // The band of a factorized system: three numbers a particle, and two rows of particles on one side.
   const double band = is_implicit(scheme(p.integrator)) ? 3 * 3 * (2.0 * std::min(p.rows, p.columns) + 4) * 8 * 2 : 0;
-  return (particle + band) * p.rows * p.columns;
+  return (particle + pairs + band) * p.rows * p.columns;
 }
 
 RunCase run_case(std::uint64_t seed, std::int64_t number, bool with_opencl) {
