@@ -1,4 +1,4 @@
-// Whether the cloth of a simulation passes through itself, which nothing in the model keeps it from.
+// Whether the cloth of a simulation passes through itself.
 #pragma once
 
 #include <string>

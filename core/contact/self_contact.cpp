@@ -135,7 +135,7 @@ void SelfContact::follow(const Tears& tears, Vectors x) {
     find_parts(tears);
   }
   if (anew[neighbors] || anew[others]) refit(x);
-  for (const Kind kind : {neighbors, others})
+  for (const ListKind kind : {neighbors, others})
     if (anew[kind]) find_pairs(kind, x);
   known_torn_ = tears.torn_count();
 }
@@ -246,7 +246,7 @@ void SelfContact::refit(Vectors x) {
   rounding_ = 4 * double(std::numeric_limits<float>::epsilon()) * double(glm::length(all.most - all.least));
 }
 
-void SelfContact::find_pairs(Kind kind, Vectors x) {
+void SelfContact::find_pairs(ListKind kind, Vectors x) {
   List& list = lists_[kind];
   list.pairs.clear(), list.then.assign(x.begin(), x.end());
   (kind == neighbors ? changed_ : moved_) = 0;
@@ -259,7 +259,7 @@ void SelfContact::find_pairs(Kind kind, Vectors x) {
 /// down the columns, Δu and Δv sites far, each piece is the step of some spring. So the distance is |Δu e + Δv s|,
 /// where e and s are means of steps and lie in their boxes. Parts that share no particle are at least √½ sites apart,
 /// and those that are no neighbors at least near_sites.
-bool SelfContact::spread_out(Kind kind, std::size_t level, Place a, Place b) const {
+bool SelfContact::spread_out(ListKind kind, std::size_t level, Place a, Place b) const {
   const Level& nodes = levels_[level];
   const Node &first = nodes.at(a.i, a.j), &second = nodes.at(b.i, b.j), &left = nodes.at(a.i, b.j),
              &right = nodes.at(b.i, a.j);
@@ -278,7 +278,7 @@ bool SelfContact::spread_out(Kind kind, std::size_t level, Place a, Place b) con
   return (std::sqrt(std::max(least, 0.0)) - radius) * apart > lists_[kind].within;
 }
 
-void SelfContact::visit(Kind kind, std::size_t level, Place a, Place b, Vectors x) {
+void SelfContact::visit(ListKind kind, std::size_t level, Place a, Place b, Vectors x) {
   const Level& nodes = levels_[level];
   const int across = std::abs(a.i - b.i), along = std::abs(a.j - b.j);
   // How many rows or columns of sites lie between them at least: (n - 1) · 2^level.

@@ -5,8 +5,7 @@
 // or two edges, of parts that share no particle: two triangles that do not cross, come to cross through one of them.
 //
 // The force: a pair at a distance D below d = 2·thickness has the energy k s⁴/d², s = d - D. It pushes both parts apart
-// along the shortest line between them, each corner by its share of the line's end. It is so smooth that a method of
-// order 4 keeps its order. It promises nothing.
+// along the shortest line between them, each corner by its share of the line's end. It promises nothing.
 //
 // The guard: in a step no particle moves by more than γ/2 (r - δ), where r is the distance of its nearest pair, at most
 // the reach. Since a point of a part moves no further than one of its corners, two parts at a distance D then approach
@@ -61,6 +60,8 @@ class SelfContact {
   /// Takes constants as they are from now on; k, N/m: that of the force.
   void set_preset(const Preset& preset, double k);
 
+  /// Something other than steps has changed the cloth or its tears: nothing of the lists holds any more.
+  void forget() { known_torn_ = -1; }
   /// Whether follow() must be asked, after particles have moved by `way` at most since it was, m.
   bool stale(const Tears& tears, double way) const;
   /// Makes the lists of near pairs anew if these positions (m) ask for it.
@@ -118,7 +119,7 @@ class SelfContact {
   };
   static constexpr int edges_of_site = 3;
   /// Pairs of parts whose owners are at most `near_sites` rows and columns apart, and all others.
-  enum Kind { neighbors, others };
+  enum ListKind { neighbors, others };
   static constexpr int near_sites = 2;
   struct List {
     std::vector<Pair> pairs;
@@ -128,12 +129,12 @@ class SelfContact {
 
   void find_parts(const Tears& tears);
   void refit(Vectors x);
-  void find_pairs(Kind kind, Vectors x);
-  void visit(Kind kind, std::size_t level, Place a, Place b, Vectors x);
+  void find_pairs(ListKind kind, Vectors x);
+  void visit(ListKind kind, std::size_t level, Place a, Place b, Vectors x);
   void visit_sites(List& list, Place a, Place b, Vectors x) const;
   bool sides_apart(Place a, Place b, double within, Vectors x) const;
   void keep_if_near(List& list, const Pair& pair, Vectors x) const;
-  bool spread_out(Kind kind, std::size_t level, Place a, Place b) const;
+  bool spread_out(ListKind kind, std::size_t level, Place a, Place b) const;
   double farthest_way(Vectors x) const;
   double largest_change(Vectors x) const;
   std::array<int, 3> triangle(int number) const;

@@ -8,15 +8,13 @@
 namespace tyglab {
 namespace {
 
-struct Self {
-  static SelfContact contact(const Preset& p, const Tears& tears, std::span<const glm::dvec3> x) {
-    SelfContact contact(tears.lattice());
-    contact.set_preset(p, layer_constant(p));
-    contact.follow(tears, x);
-    contact.look(x);
-    return contact;
-  }
-};
+SelfContact looked_at(const Preset& p, const Tears& tears, std::span<const glm::dvec3> x) {
+  SelfContact contact(tears.lattice());
+  contact.set_preset(p, layer_constant(p));
+  contact.follow(tears, x);
+  contact.look(x);
+  return contact;
+}
 
 }  // namespace
 
@@ -32,7 +30,7 @@ const Force force::self{
     .stencils = [](const Preset&) { return std::span<const Stencil>(); },
     .act = nullptr,
     .among = [](const Preset& p, const Tears& tears, std::span<const glm::dvec3> x, std::span<const glm::dvec3>,
-                std::span<glm::dvec3> F) { return Self::contact(p, tears, x).add_forces(F); },
+                std::span<glm::dvec3> F) { return looked_at(p, tears, x).add_forces(F); },
 };
 
 const Force force::slip{
@@ -49,7 +47,7 @@ const Force force::slip{
     .among =
         [](const Preset& p, const Tears& tears, std::span<const glm::dvec3> x, std::span<const glm::dvec3> v,
            std::span<glm::dvec3> F) {
-          Self::contact(p, tears, x).add_friction(v, F);
+          looked_at(p, tears, x).add_friction(v, F);
           return 0.0;
         },
 };

@@ -149,6 +149,24 @@ TEST_CASE("boxes lose no pair that a look at every pair finds: crumpled, folded,
   CHECK(most > 0);
 }
 
+TEST_CASE("as many tears at other places are other tears") {
+  const Preset p = sheet(12, 6, "repel");
+  const Vectors x = positions(folded(p, 0.2 * p.L));
+  Tears above(lattice_of(p)), below(lattice_of(p));
+  for (int j = 0; j + 1 < p.columns; ++j) above.tear(0, 2, j), below.tear(0, 1, j);
+  REQUIRE(above.torn_count() == below.torn_count());
+  REQUIRE(energy_of_all_pairs(p, above, x) != doctest::Approx(energy_of_all_pairs(p, below, x)).epsilon(1e-6));
+  SelfContact contact(lattice_of(p));
+  contact.set_preset(p, layer_constant(p));
+  for (const Tears* tears : {&above, &below}) {
+    contact.forget();
+    contact.follow(*tears, x);
+    contact.look(x);
+    Vectors F(x.size(), glm::dvec3(0));
+    CHECK(contact.add_forces(F) == doctest::Approx(energy_of_all_pairs(p, *tears, x)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a flat cloth meets nothing, however it is stretched, sheared by a tenth or turned") {
   Preset p = sheet(20, 30, "repel");
   for (const double stretch : {0.9, 1.0, 3.0}) {
@@ -249,6 +267,53 @@ TEST_CASE("while nothing is near, the motion has the same bits as without contac
     CHECK(test::identical(guarded.read(), free.read()));
     CHECK(guarded.engine().held_back() == 0);
   }
+}
+
+TEST_CASE("a method that starts anew amid contact, since a constant has changed, starts with its forces") {
+  for (const char* integrator : {"verlet", "semi_implicit_euler", "rk4"}) {
+    CAPTURE(std::string(integrator));
+    Preset p = sheet(12, 5, "guard", integrator);
+    const auto changed_amid = [&](EngineKind engine) {
+      p.engine = engine;
+      Simulation simulation(p);
+      simulation.load(folded(p, 0.25 * p.L));
+      simulation.advance(4);
+      Preset next = p;
+      next.dt = p.dt / 2, next.k_d = 1e-4;
+      simulation.apply(edit::Change{next});
+      simulation.advance(8);
+      return simulation.read();
+    };
+    CHECK(rms(changed_amid(EngineKind::cpu), changed_amid(EngineKind::plain)) < 1e-12);
+  }
+}
+
+TEST_CASE("contact may be switched off and on under way, and follows tears that others replace") {
+  Preset p = sheet(40, 9, "repel");
+  Simulation simulation(p, 2);
+  State state = folded(p, 0.25 * p.L);
+  simulation.load(state);
+  simulation.advance(3);
+  REQUIRE(simulation.energy().energy.of[force::self] > 0);
+  Preset off = p;
+  off.self = "off";
+  simulation.apply(edit::Change{off});
+  simulation.advance(40);
+  CHECK(simulation.energy().energy.of[force::self] == 0);
+  simulation.apply(edit::Change{p});
+  simulation.load(state);
+  // Two cuts of as many springs at other places: a return to the first has other triangles than the second.
+  const Snapshot whole = simulation.snapshot();
+  simulation.apply(edit::Cut{{{3, 3}, {3, 4}, {3, 5}}});
+  const Snapshot first = simulation.snapshot();
+  simulation.advance(5);
+  const State wanted = simulation.read();
+  simulation.restore(whole);
+  simulation.apply(edit::Cut{{{12, 3}, {12, 4}, {12, 5}}});
+  simulation.advance(5);
+  simulation.restore(first);
+  simulation.advance(5);
+  CHECK(test::identical(simulation.read(), wanted));
 }
 
 TEST_CASE("methods keep their orders through layers in contact") {

@@ -125,7 +125,7 @@ void CpuEngine<R, Present>::resolve() {
   if (self_ == nullptr && touches_itself(cloth_.preset)) self_ = std::make_unique<Self>(cloth_.lattice);
   make_waves();  // the last that takes memory
   cloth_.features = features_of(cloth_.preset);
-  if (!touches_itself(cloth_.preset)) self_.reset();
+  if (!touches_itself(cloth_.preset)) self_.reset(), cloth_.near_force = nullptr;
   if (self_ != nullptr) self_->contact.set_preset(cloth_.preset, layer_constant(cloth_.preset)), lose_self();
   cloth_.contacts = contacts_of(cloth_.preset, cloth_.dt, std::numeric_limits<R>::epsilon());
   cloth_.bodies_move = any_moves(cloth_.preset.bodies);
@@ -261,7 +261,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   });
   guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, cloth_.bodies.front(), view(), 1));
   rows_ = Array<double>();
-  lose_self();
+  forget_self();
   set_synchronized(true);
   write_fixed_velocities();
   springs_changed_ = true;
@@ -280,6 +280,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::start(const Tears& tears) {
   follow_springs(tears);
   assert(synchronized_ && !scheme_->start.empty());
+  begin_self(tears), find_near_force(start_);
   // Its a sees v itself, so the sweep's velocity takes no power of dt.
   team_->run([&](int number) {
     bands_[std::size_t(number)]->copy_halo(start_);
@@ -495,7 +496,7 @@ void CpuEngine<R, Present>::go_on_from(const HeldMotion& then) {
   for (std::size_t n = 0; n < held->vectors.size(); ++n) cloth_.vectors[n] = held->vectors[n];
   set_synchronized(held->synchronized);
   control_ = held->control, knows_first_a_ = false;
-  lose_self();
+  forget_self();
   guard_.resume(held->given, cloth_.preset, cloth_.lattice, cloth_.held);
 }
 

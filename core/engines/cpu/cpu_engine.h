@@ -228,6 +228,10 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void lose_self() {
     if (self_ != nullptr) self_->way = std::numeric_limits<double>::infinity();
   }
+  /// It may also have torn or mended as many springs as were torn before.
+  void forget_self() {
+    if (self_ != nullptr) self_->contact.forget();
+  }
   /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
   /// Makes that many steps in one pass over the rows: each sweep is two rows behind the one before it, so that rows are

@@ -310,7 +310,7 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   assert(steps >= 0 && !repeating_);
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
-  lose_self();
+  forget_self();
   if (self_ != nullptr) self_->held_back = self_->held_back_then;
   set_synchronized(synchronized_backup_);
   return_to(step_backup_);
