@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/forces/contact.h"
 #include "core/forces/force.h"
 
 namespace tyglab {
@@ -18,7 +19,7 @@ constexpr double still_part = 1e-6, error_part = 1e-4;
 bool may_sleep(const Simulation& simulation) {
   const Preset& p = simulation.preset();
   return p.kind == Kind::cloth && p.W == glm::dvec3(0) && (p.u == glm::dvec3(0) || !force::air.on(p)) &&
-         !simulation.held() && !simulation.divergence();
+         !any_moves(p.bodies) && p.pins.motions.empty() && !simulation.held() && !simulation.divergence();
 }
 
 /// Where particles are that tell that a cloth moves: its lower corner and, in case that is pinned, two others.
