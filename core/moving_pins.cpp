@@ -77,8 +77,8 @@ PinSpan pin_span(const std::vector<Pins::Motion>& motions, std::int64_t step, do
   return {std::max(block, last), std::min(block + longest_span, next), last >= block};
 }
 
-MovingPins::MovingPins(const Preset& preset, std::span<const int> pinned, const std::function<glm::dvec3(int)>& x_of,
-                       double t) {
+MovingPins::MovingPins(const Preset& preset, const Tears& tears, std::span<const int> pinned,
+                       const std::function<glm::dvec3(int)>& x_of, double t) {
   const std::vector<Pins::Motion>& motions = preset.pins.motions;
   const Lattice lattice = lattice_of(preset);
   const std::vector<Pose> poses = poses_at(motions, t);
@@ -87,7 +87,7 @@ MovingPins::MovingPins(const Preset& preset, std::span<const int> pinned, const 
   for (const Pins::Motion& motion : motions) masks.push_back(particles_at(lattice, motion.mode, motion.list));
   for (const int particle : pinned)
     for (std::size_t n = 0; n < motions.size(); ++n)
-      if (masks[n][std::size_t(particle)] != 0) {
+      if (masks[n][std::size_t(tears.mesh() != nullptr ? tears.mesh()->site(particle) : particle)] != 0) {
         pins_.push_back({particle, n, poses[n].home(x_of(particle))});
         break;
       }

@@ -25,8 +25,9 @@ PinSpan pin_span(const std::vector<Pins::Motion>& motions, std::int64_t step, do
 class MovingPins {
  public:
   MovingPins() = default;
-  /// x_of says where each pinned particle is at time t, s.
-  MovingPins(const Preset& preset, std::span<const int> pinned, const std::function<glm::dvec3(int)>& x_of, double t);
+  /// x_of says where each pinned particle is at time t, s. Copies of a cloth that has parted move with their sites.
+  MovingPins(const Preset& preset, const Tears& tears, std::span<const int> pinned,
+             const std::function<glm::dvec3(int)>& x_of, double t);
   bool empty() const { return pins_.empty(); }
   std::size_t bytes() const { return pins_.capacity() * sizeof(Pin); }
   /// Where they are when that span of steps begins, and their velocities in it. `motions`: those that they were made

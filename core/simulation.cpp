@@ -11,6 +11,7 @@
 #include "core/contact/self_contact.h"
 #include "core/engines/still_engine.h"
 #include "core/forces/force.h"
+#include "core/forces/parted.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
@@ -78,6 +79,44 @@ namespace {
 
 }  // namespace
 
+/// Makes one particle of a state the same as another.
+static void copy_particle(State& state, int from, int to) {
+  for (VectorField<double>* field : {&state.x, &state.v})
+    for (Array<double>* component : {&field->x, &field->y, &field->z})
+      (*component)[std::size_t(to)] = (*component)[std::size_t(from)];
+}
+
+/// The pinned particles, and what stands in rows for copies without being one: that is held where it is.
+static std::vector<int> with_absent(std::span<const int> pinned, const Tears& tears) {
+  std::vector<int> all(pinned.begin(), pinned.end());
+  for (int n = tears.particles(); n < tears.lattice().size(); ++n) all.push_back(n);
+  return all;
+}
+
+/// A mask of the particles that a preset pins: those of pinned sites.
+static std::vector<std::uint8_t> pins_of(const Preset& preset, const Tears& tears) {
+  std::vector<std::uint8_t> mask = pinned_particles(preset);
+  mask.resize(std::size_t(tears.lattice().size()), 0);
+  for (int n = tears.lattice().sites().size(); n < tears.particles(); ++n)
+    mask[std::size_t(n)] = mask[std::size_t(tears.mesh()->site(n))];
+  return mask;
+}
+
+/// Rows of sites, and below them copies where their sites are; `sites` must outlive them.
+static StateRows copied_rows(const StateRows& sites, const Tears& tears) {
+  if (tears.mesh() == nullptr) return sites;
+  const Lattice& lattice = tears.lattice();
+  auto state = std::make_shared<State>();
+  state->x.resize(std::size_t(lattice.size())), state->v.resize(std::size_t(lattice.size()));
+  const auto row = [&](int i) {
+    const std::size_t at = std::size_t(i) * lattice.columns;
+    return StateRow{{&state->x.x[at], &state->x.y[at], &state->x.z[at]}, {&state->v.x[at], &state->v.y[at], &state->v.z[at]}};
+  };
+  for (int i = 0; i < lattice.sites().rows; ++i) sites(i, row(i));
+  for (int n = lattice.sites().size(); n < tears.particles(); ++n) copy_particle(*state, tears.mesh()->site(n), n);
+  return [state, rows = rows_of(*state, lattice.columns)](int i, const StateRow& to) { rows(i, to); };
+}
+
 Simulation::Simulation(const Preset& preset, int threads) : threads_(threads) {
   assert(threads >= 1 && can_run(preset));
   build(preset);
@@ -117,7 +156,7 @@ void Simulation::build(const Preset& next) {
   tears_ = Tears(lattice_);
   pinned_mask_ = pinned_particles(next);
   pinned_ = particles_in(pinned_mask_);
-  engine_ = made_engine(next, lattice_, {pinned_, {}}, start_rows(next), tears_, 0);
+  engine_ = made_engine(next, {pinned_, {}}, start_rows(next), tears_, 0);
   preset_ = next, effective_preset_ = in_gusts(next, 0);
   moving_pins_ = moving_pins(preset_, pinned_);
   untouched_ = true;
@@ -132,12 +171,12 @@ void Simulation::take(Simulation& other) noexcept {
 }
 
 /// An engine for these constants with that state, at time t, s. Throws EngineError; the present engine goes on then.
-std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
-                                                const StateRows& rows, const Tears& tears, double t) const {
-  auto engine = make_engine(in_gusts(next, t), lattice, threads_);
+std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Fixed& fixed, const StateRows& rows,
+                                                const Tears& tears, double t) const {
+  auto engine = make_engine(in_gusts(next, t), tears.lattice(), threads_);
   engine->stop_when(stop_), engine->limit_steps(step_limit_);
   engine->note_contacts(watch_.has_value());
-  engine->set_fixed(fixed.pinned, fixed.held);
+  engine->set_fixed(with_absent(fixed.pinned, tears), fixed.held);
   engine->drive_pins(driven_, false);
   engine->next_step({t, 0});
   engine->load(rows, tears);
@@ -170,10 +209,11 @@ void Simulation::fix(std::span<const int> pinned, const Held& held, bool others)
   others = others || held.particle != held_.particle ||
            !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   if (!others && held.velocity == held_.velocity) return;
-  engine_->prepare(pinned.size());
+  const std::vector<int> all = with_absent(pinned, tears_);
+  engine_->prepare(all.size());
   // Only damping and air depend on the velocity of the hand.
   if (others || force::damping.on(preset_) || force::air.on(preset_)) engine_->synchronize(tears_);
-  engine_->set_fixed(pinned, held);
+  engine_->set_fixed(all, held);
   driven_.clear();
 }
 
@@ -181,7 +221,7 @@ void Simulation::fix(std::span<const int> pinned, const Held& held, bool others)
 MovingPins Simulation::moving_pins(const Preset& preset, std::span<const int> pinned) const {
   if (preset.pins.motions.empty()) return {};
   const auto x_of = [&](int p) { return position(p / lattice_.columns, p % lattice_.columns); };
-  return MovingPins(preset, pinned, x_of, time());
+  return MovingPins(preset, tears_, pinned, x_of, time());
 }
 
 /// Gives pins that move the velocities of the coming step. Returns for how many steps they keep them.
@@ -227,15 +267,16 @@ void Simulation::change(const Preset& next) {
       throw PresetError("contact.self: guard: the cloth crosses itself now, in " + grouped(crossings.pairs) +
                         (crossings.pairs == 1 ? " pair" : " pairs") +
                         " of triangles, and a guard does not part them; restart the scene, or use repel");
+  check_tears(next);
   const EffectSet changed = changes(preset_, next);
   const bool moves = !changed.within(motionless) || pushed_until_, pins = changed.touches(Effect::pins);
   // The wind of the coming step is set when the step begins, or by an edit of what it depends on.
   const bool blows = changed.touches(Effect::force | Effect::dt);
   Preset own = next, acts = blows ? in_gusts(next, time()) : merge(preset_, next, acting());
-  std::vector<std::uint8_t> pinned_mask = pins ? pinned_particles(next) : std::vector<std::uint8_t>();
+  std::vector<std::uint8_t> pinned_mask = pins ? pins_of(next, tears_) : std::vector<std::uint8_t>();
   std::vector<int> pinned = particles_in(pinned_mask);
   MovingPins moving = pins ? moving_pins(next, pinned) : MovingPins();
-  if (pins) engine_->prepare(pinned.size());
+  if (pins) engine_->prepare(with_absent(pinned, tears_).size());
   if (moves) engine_->set_preset(acts, tears_);
   if (next.dt != preset_.dt) rebase_time();
   if (pins) {
@@ -254,8 +295,14 @@ bool Simulation::restarts(EffectSet changed) const {
   return untouched_ && (changed.empty() || !changed.within(met_later));
 }
 
+/// A cloth that has torn by one rule goes on by it.
+void Simulation::check_tears(const Preset& next) const {
+  if (parts(next) != parts(preset_) && !tears_.untorn())
+    throw PresetError("tearing.mode: the cloth has torn by the rule " + preset_.tearing + "; restart the scene first");
+}
+
 void Simulation::take_engine(const Preset& next, const State& state) {
-  engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
+  engine_ = made_engine(next, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   if (next.dt != preset_.dt) rebase_time();
   preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
 }
@@ -280,7 +327,7 @@ int Simulation::update_gust() {
 }
 
 void Simulation::take_pins() {
-  pinned_mask_ = pinned_particles(preset_);
+  pinned_mask_ = pins_of(preset_, tears_);
   pinned_ = particles_in(pinned_mask_);
   hold(held_.particle >= 0 && pinned_mask_[held_.particle] ? Held{} : held_);
   moving_pins_ = moving_pins(preset_, pinned_);
@@ -304,6 +351,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
     fresh->enable_ledger(watch_.has_value()), fresh->limit_steps(step_limit_);
     return fresh;
   }
+  check_tears(next);
   std::unique_ptr<Simulation> other(new Simulation(*this));
   if (untouched_) {
     other->restart_untouched(next);
@@ -330,11 +378,11 @@ std::unique_ptr<Simulation> Simulation::stand_in() const {
 /// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
 /// the hand stay.
 void Simulation::restart_untouched(const Preset& next) {
-  std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
+  std::vector<std::uint8_t> pinned_mask = pins_of(next, tears_);
   const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
   const Fixed fixed{particles_in(pinned_mask), held};
   driven_.clear();
-  engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
+  engine_ = made_engine(next, fixed, copied_rows(start_rows(next), tears_), tears_, time());
   preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
@@ -374,6 +422,7 @@ void Simulation::cut(const edit::Cut& e) {
 }
 
 void Simulation::cut_springs(const edit::CutSprings& e) {
+  if (parts(preset_)) return part(openings_of_cut(tears_, e.springs));
   Tears tears = tears_;
   for (const SpringSite& spring : e.springs)
     if (spring.direction >= 0 && spring.direction < stretch_directions)
@@ -383,17 +432,74 @@ void Simulation::cut_springs(const edit::CutSprings& e) {
   ++tear_revision_;
 }
 
+/// Parts particles. All that takes memory comes first.
+void Simulation::part(const std::vector<Opening>& openings) {
+  if (openings.empty()) return;
+  auto mesh = std::make_shared<Mesh>(tears_.mesh() != nullptr ? *tears_.mesh() : Mesh(lattice_));
+  State state = read();
+  const int before = mesh->particles();
+  for (const Opening& opening : openings) mesh->part(opening.particle, opening.cells);
+  // Rows for copies double, so that engines are seldom made anew.
+  Lattice next = lattice_;
+  while (mesh->particles() > next.size()) {
+    const int more = std::max(lattice_.copy_rows, 1);
+    next.rows += more, next.copy_rows += more;
+  }
+  Tears tears(next, mesh);
+  for (VectorField<double>* field : {&state.x, &state.v})
+    for (Array<double>* component : {&field->x, &field->y, &field->z}) component->resize(std::size_t(next.size()), 0);
+  for (int n = before; n < next.size(); ++n) copy_particle(state, n < mesh->particles() ? openings[std::size_t(n - before)].particle : 0, n);
+  std::vector<std::uint8_t> pinned_mask = pins_of(preset_, tears);
+  std::vector<int> pinned = particles_in(pinned_mask);
+  std::unique_ptr<Engine> engine;
+  if (next != lattice_) {
+    engine = made_engine(acting(), {pinned, held_}, rows_of(state, next.columns), tears, time());
+  } else {
+    engine_->set_fixed(with_absent(pinned, tears), held_);
+    engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
+    engine_->load(state, tears);
+  }
+  if (engine) engine_ = std::move(engine);
+  lattice_ = next, tears_ = std::move(tears);
+  pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
+  driven_.clear();
+  moving_pins_ = moving_pins(preset_, pinned_);
+  ++tear_revision_, ++revision_;
+}
+
+/// After a step that left springs overloaded. Returns how many copies there are more.
+int Simulation::part_overloaded() {
+  const State& state = read();
+  std::vector<glm::dvec3> x;
+  for (std::size_t n = 0; n < state.x.x.size(); ++n) x.emplace_back(state.x.x[n], state.x.y[n], state.x.z[n]);
+  // Springs near what is pinned or held do not tear, as they do not break.
+  std::vector<std::uint8_t> guarded(std::size_t(lattice_.sites().size()), 0);
+  const auto guard = [&](int particle) {
+    const Pins::Site at = tears_.site(particle);
+    for (int i = at.i - 1; i <= at.i + 1; ++i)
+      for (int j = at.j - 1; j <= at.j + 1; ++j)
+        if (lattice_.has_site(i, j)) guarded[std::size_t(i) * lattice_.columns + j] = 1;
+  };
+  for (const int particle : pinned_) guard(particle);
+  if (held_.particle >= 0) guard(held_.particle);
+  const std::vector<Opening> openings = openings_of_overload(preset_, tears_, x, guarded);
+  part(openings);
+  return int(openings.size());
+}
+
 void Simulation::pin(const edit::Pin& e) {
   if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
-  const int p = e.i * lattice_.columns + e.j;
+  // The preset says what is pinned, so that it can be saved: by a list from now on. It names sites, so all particles of
+  // one are pinned or none is.
+  const Pins::Site site = tears_.site(e.i * lattice_.columns + e.j);
   std::vector<std::uint8_t> pinned_mask = pinned_mask_;
-  pinned_mask[p] = e.pinned;
-  std::vector<int> pinned = particles_in(pinned_mask);
-  // The preset says what is pinned, so that it can be saved: by a list from now on.
   std::vector<Pins::Site> list;
-  list.reserve(pinned.size());
-  for (const int n : pinned) list.push_back({n / lattice_.columns, n % lattice_.columns});
-  const bool lets_go = held_.particle == p;
+  for (int n = 0; n < tears_.particles(); ++n) {
+    if (tears_.site(n) == site) pinned_mask[std::size_t(n)] = e.pinned;
+    if (pinned_mask[std::size_t(n)] != 0 && n < lattice_.sites().size()) list.push_back(tears_.site(n));
+  }
+  std::vector<int> pinned = particles_in(pinned_mask);
+  const bool lets_go = held_.particle >= 0 && tears_.site(held_.particle) == site;
   MovingPins moving = pinned == pinned_ ? moving_pins_ : moving_pins(preset_, pinned);
   fix(pinned, lets_go ? Held{} : held_);
   if (lets_go) held_ = {}, hand_force_ = {};
@@ -488,6 +594,10 @@ AdvanceResult Simulation::advance_part(int steps) {
   if (held_.particle >= 0) hand_force_ = part.hand_force;
   if (part.diverged) diverge(part);
   if (watch_ && part.steps > 0 && !splits) watch_step(acting());
+  if (part.overloaded) {
+    part.torn += part_overloaded();
+    watch_edit(Ledger::Source::tearing);
+  }
   part.diverged = divergence_.has_value();
   if (part.released) release(), watch_edit(Ledger::Source::hand);
   if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {
@@ -554,6 +664,8 @@ void Simulation::restore(const Snapshot& then) {
   assert(fits(then));
   // All that takes memory comes first.
   Tears tears = then.tears;
+  std::vector<std::uint8_t> pinned_mask = pins_of(preset_, tears);
+  std::vector<int> pinned = particles_in(pinned_mask);
   const bool repeats = then.held && changes(then.of, preset_).within(motionless);
   Preset gusty = in_gusts(preset_, then.t);
   // What the method held then belongs to the wind of its last step, and learns of the next one's when that begins.
@@ -563,7 +675,7 @@ void Simulation::restore(const Snapshot& then) {
     moving = then.moving_pins;
   else if (!preset_.pins.motions.empty())
     moving = MovingPins(
-        preset_, pinned_,
+        preset_, tears, pinned,
         [&](int p) {
           const auto& x = then.state.x;
           return glm::dvec3(x.x[std::size_t(p)], x.y[std::size_t(p)], x.z[std::size_t(p)]);
@@ -575,10 +687,20 @@ void Simulation::restore(const Snapshot& then) {
     const PinSpan span = pin_span(preset_.pins.motions, repeats ? then.steps - then.steps_at_dt : 0, since, preset_.dt);
     driven = moving.in(span, preset_.pins.motions, since, preset_.dt);
   }
-  engine_->prepare(pinned_.size());
+  std::unique_ptr<Engine> other;
+  if (then.lattice != lattice_)
+    other = make_engine(gusty, then.lattice, threads_);
+  else
+    engine_->prepare(with_absent(pinned, tears).size());
   if (watch_) energy();
-  if (gusts(preset_) || pushed_until_) engine_->set_preset(gusty, tears_);
-  engine_->set_fixed(pinned_, {});
+  if (other) {
+    other->stop_when(stop_), other->limit_steps(step_limit_), other->note_contacts(watch_.has_value());
+    engine_ = std::move(other), lattice_ = then.lattice;
+  } else if (gusts(preset_) || pushed_until_) {
+    engine_->set_preset(gusty, tears_);
+  }
+  pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
+  engine_->set_fixed(with_absent(pinned_, tears), {});
   engine_->drive_pins(driven, false);
   held_ = {}, driven_ = std::move(driven), moving_pins_ = std::move(moving);
   tears_ = std::move(tears), effective_preset_ = std::move(gusty), pushed_until_.reset();

@@ -11,6 +11,7 @@
 #include "core/energy/ledger.h"
 #include "core/engines/engine.h"
 #include "core/forces/contact.h"
+#include "core/forces/parted.h"
 #include "core/forces/readout.h"
 #include "core/model/effect.h"
 #include "core/model/preset.h"
@@ -66,6 +67,7 @@ class Simulation {
   ~Simulation();
 
   const Preset& preset() const { return preset_; }
+  /// Where the cloth has parted, with rows for copies (mesh.h).
   const Lattice& lattice() const { return lattice_; }
   const Tears& tears() const { return tears_; }
   double time() const;
@@ -133,7 +135,9 @@ class Simulation {
 
   Snapshot snapshot();
   /// Whether the cloth still has the lattice of the snapshot.
-  bool fits(const Snapshot& then) const { return then.lattice == lattice_ && then.kind == preset_.kind; }
+  bool fits(const Snapshot& then) const {
+    return then.lattice.sites() == lattice_.sites() && then.kind == preset_.kind;
+  }
   /// Returns to a snapshot that fits, with the present constants and pins. The hand releases, and a divergence is
   /// cleared.
   void restore(const Snapshot& then);
@@ -169,12 +173,13 @@ class Simulation {
     std::vector<int> pinned;
     Held held;
   };
-  std::unique_ptr<Engine> made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
-                                      const StateRows& rows, const Tears& tears, double t) const;
+  std::unique_ptr<Engine> made_engine(const Preset& next, const Fixed& fixed, const StateRows& rows, const Tears& tears,
+                                      double t) const;
   /// The present constants: those of the preset, with the present wind.
   const Preset& acting() const { return gusts(preset_) || pushed_until_ ? effective_preset_ : preset_; }
   int update_gust();
   bool restarts(EffectSet changed) const;
+  void check_tears(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins();
   ForcesAmong forces_among_stored() const;
@@ -187,6 +192,8 @@ class Simulation {
   void release();
   void cut(const edit::Cut& edit);
   void cut_springs(const edit::CutSprings& edit);
+  void part(const std::vector<Opening>& openings);
+  int part_overloaded();
   void pin(const edit::Pin& edit);
   void move_body(const edit::MoveBody& edit);
   void end_push();

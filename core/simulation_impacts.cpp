@@ -72,7 +72,7 @@ AdvanceResult Simulation::step_to_impacts() {
     int particle = 0;
     bool met = false;
     for (int p = 0; p < lattice_.size(); ++p) {
-      if (pinned_mask_[std::size_t(p)] != 0 || p == held_.particle) continue;
+      if (p >= tears_.particles() || pinned_mask_[std::size_t(p)] != 0 || p == held_.particle) continue;
       const std::size_t n = std::size_t(p);
       const auto impact = first_impact(bodies, left, epsilon, at(before.x, n), at(before.v, n), at(after.x, n), met);
       if (impact && (!first || impact->time < first->time)) first = impact, particle = p;

@@ -36,18 +36,23 @@ struct SpringSite {
   bool operator==(const SpringSite&) const = default;
 };
 
-/// R x C particles; arrays over them have `stride` >= columns elements a row.
+/// R x C sites, and rows below them for the copies of a cloth that has parted (mesh.h), which no spring of the lattice
+/// joins; arrays over all of them have `stride` >= columns elements a row.
 struct Lattice {
-  int rows = 2;
+  int rows = 2;  ///< all of them
   int columns = 1;
+  int copy_rows = 0;  ///< those for copies
 
   int size() const { return rows * columns; }
   bool contains(int i, int j) const { return i >= 0 && i < rows && j >= 0 && j < columns; }
+  /// The lattice without rows for copies.
+  Lattice sites() const { return {rows - copy_rows, columns}; }
+  bool has_site(int i, int j) const { return i < rows - copy_rows && contains(i, j); }
   /// Whether the spring of that direction owned by (i, j) exists (torn or not).
   bool has_spring(int direction, int i, int j) const {
     assert(direction >= 0 && direction < int(directions.size()));
     const Direction& d = directions[direction];
-    return contains(i, j) && contains(i + d.di, j + d.dj);
+    return has_site(i, j) && has_site(i + d.di, j + d.dj);
   }
   bool operator==(const Lattice&) const = default;
 };

@@ -187,10 +187,34 @@ std::vector<int> particles_in(const std::vector<std::uint8_t>& mask) {
   return list;
 }
 
+/// Sweeps load whole vectors of masks, of a pair of rows and of the next one.
+static std::size_t sweep_margin(const Lattice& lattice) {
+  return 2 * std::size_t(lattice.columns) + 128;
+}
+
+Tears::Tears(const Lattice& lattice, std::shared_ptr<const Mesh> mesh) : lattice_(lattice), mesh_(std::move(mesh)) {
+  assert(mesh_ && lattice_.sites() == mesh_->sites() && lattice_.size() >= mesh_->particles());
+  masks_.assign(std::size_t(lattice_.size()) + sweep_margin(lattice_), all_springs);
+  const auto lose = [&](int i, int j, unsigned springs) {
+    if (lattice_.contains(i, j)) masks_[index(i, j)] &= std::uint8_t(~springs);
+  };
+  // Springs that a site owns or ends, and bending springs over it.
+  const auto lose_all = [&](int i, int j) {
+    lose(i, j, all_springs);
+    lose(i, j - 1, bit_E | bit_EE), lose(i, j - 2, bit_EE);
+    lose(i - 1, j, bit_S | bit_SS), lose(i - 2, j, bit_SS);
+    lose(i - 1, j - 1, bit_SE), lose(i - 1, j + 1, bit_SW);
+  };
+  for (const int site : mesh_->parted_sites()) lose_all(site / lattice_.columns, site % lattice_.columns);
+  for (int i = lattice_.rows - lattice_.copy_rows; i < lattice_.rows; ++i)
+    for (int j = 0; j < lattice_.columns; ++j) lose_all(i, j);
+  torn_ = mesh_->copies();
+}
+
 bool Tears::tear(int direction, int i, int j) {
+  assert(!mesh_);
   if (!lattice_.has_spring(direction, i, j) || !whole(direction, i, j)) return false;
-  // Sweeps load whole vectors of masks, of a pair of rows and of the next one: hence the margin.
-  if (masks_.empty()) masks_.assign(std::size_t(lattice_.size()) + 2 * lattice_.columns + 128, all_springs);
+  if (masks_.empty()) masks_.assign(std::size_t(lattice_.size()) + sweep_margin(lattice_), all_springs);
   masks_[index(i, j)] &= std::uint8_t(~(1u << direction));
   ++torn_;
   // A bending spring lies over two E (or two S) springs: over the torn one and its neighbor on either side.

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/cloth/array.h"
 #include "core/cloth/lattice.h"
+#include "core/cloth/mesh.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
@@ -64,10 +66,15 @@ std::vector<int> particles_in(const std::vector<std::uint8_t>& mask);
 
 /// One mask a particle (row i, column j at i·columns + j): bit d tells whether the spring of direction d that the
 /// particle owns is whole. Bits of springs that do not exist are set, and never read.
+///
+/// Of a cloth that has parted, springs and triangles at parted sites count as not whole here: they join other
+/// particles, those of the mesh, and forces reach them as loose stencils (parted.h).
 class Tears {
  public:
   Tears() = default;
   explicit Tears(Lattice lattice) : lattice_(lattice) {}
+  /// Of a cloth that has parted, in a lattice with rows for all copies.
+  Tears(const Lattice& lattice, std::shared_ptr<const Mesh> mesh);
 
   const Lattice& lattice() const { return lattice_; }
   bool untorn() const { return masks_.empty(); }
@@ -81,9 +88,26 @@ class Tears {
   bool tear(int direction, int i, int j);
   /// Whether triangle `which` (0, 1) of quad (i, j) has its three edge springs.
   bool triangle_whole(int i, int j, int which) const;
+  /// Broken stretch springs, or copies of a cloth that has parted.
   int torn_count() const { return torn_; }
-  std::size_t bytes() const { return masks_.capacity(); }
-  bool operator==(const Tears&) const = default;
+  /// The mesh of a cloth that has parted; null otherwise.
+  const Mesh* mesh() const { return mesh_.get(); }
+  /// How many particles there are; what follows them in the rows for copies is none.
+  int particles() const { return mesh_ ? mesh_->particles() : lattice_.size(); }
+  /// Whether particle (i, j) has parted or is a copy, so that no stencil of the lattice has it.
+  bool parted(int i, int j) const { return mesh_ && (!lattice_.has_site(i, j) || mesh_->parted(int(index(i, j)))); }
+  /// The part of a site's mass that a particle has; 0 where there is none.
+  double share(int particle) const { return !mesh_ ? 1 : particle < mesh_->particles() ? mesh_->share(particle) : 0; }
+  /// The site of a particle.
+  Pins::Site site(int particle) const {
+    if (mesh_) particle = mesh_->site(particle);
+    return {particle / lattice_.columns, particle % lattice_.columns};
+  }
+  std::size_t bytes() const { return masks_.capacity() + (mesh_ ? mesh_->bytes() : 0); }
+  bool operator==(const Tears& other) const {
+    const bool same_mesh = mesh_ == other.mesh_ || (mesh_ && other.mesh_ && *mesh_ == *other.mesh_);
+    return lattice_ == other.lattice_ && masks_ == other.masks_ && torn_ == other.torn_ && same_mesh;
+  }
 
  private:
   std::size_t index(int i, int j) const {
@@ -92,7 +116,26 @@ class Tears {
   }
   Lattice lattice_;
   std::vector<std::uint8_t> masks_;
-  int torn_ = 0;  ///< stretch springs
+  int torn_ = 0;
+  std::shared_ptr<const Mesh> mesh_;
 };
+
+/// Calls visit(a, b, c, i, j, which) for every whole triangle `which` of cell (i, j), with its particles,
+/// counter-clockwise seen from the front.
+template <class Visit>
+void for_each_triangle(const Tears& tears, const Visit& visit) {
+  const Lattice sites = tears.lattice().sites();
+  const Mesh* mesh = tears.mesh();
+  for (int i = 0; i + 1 < sites.rows; ++i)
+    for (int j = 0; j + 1 < sites.columns; ++j)
+      for (int which = 0; which < 2; ++which) {
+        if (mesh == nullptr && !tears.triangle_whole(i, j, which)) continue;
+        const auto& corners = quad_triangles[std::size_t((i + j) & 1)][std::size_t(which)];
+        const auto particle = [&](const Corner& at) {
+          return mesh != nullptr ? mesh->corner(i, j, at) : (i + at.di) * sites.columns + j + at.dj;
+        };
+        visit(particle(corners[0]), particle(corners[1]), particle(corners[2]), i, j, which);
+      }
+}
 
 }  // namespace tyglab

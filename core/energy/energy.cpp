@@ -52,7 +52,14 @@ class Reader {
     for (const auto* component : {&state_.v.x, &state_.v.y, &state_.v.z})
       for (std::size_t n = 0; n < all; ++n) squares += (*component)[n] * (*component)[n];
     for (std::size_t n = 0; n < all; ++n) heights += state_.x.y[n];
-    const auto leave_out = [&](int p) { squares -= glm::dot(v(std::size_t(p)), v(std::size_t(p))); };
+    // Particles at parted sites have a share of a mass; their weight is among the forces of loose stencils.
+    for (std::size_t n = 0; tears_.mesh() != nullptr && n < all; ++n) {
+      squares -= (1 - tears_.share(int(n))) * glm::dot(v(n), v(n));
+      if (tears_.parted(int(n) / lattice_.columns, int(n) % lattice_.columns)) heights -= state_.x.y[n];
+    }
+    const auto leave_out = [&](int p) {
+      squares -= tears_.share(p) * glm::dot(v(std::size_t(p)), v(std::size_t(p)));
+    };
     if (held.particle >= 0) leave_out(held.particle);
     for (const DrivenPin& pin : driven) leave_out(pin.particle);
     sum.energy.kinetic = p_.m / 2 * squares;
@@ -113,7 +120,7 @@ class Reader {
 
 EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held,
                           std::span<const DrivenPin> driven) {
-  assert(state.x.x.size() == std::size_t(lattice_of(preset).size()));
+  assert(state.x.x.size() == std::size_t(tears.lattice().size()));
   return Reader(preset, tears, state).read(held, driven);
 }
 

@@ -71,6 +71,7 @@ struct AdvanceResult {
   int torn = 0;                    ///< stretch springs that broke
   int left_inside = 0;             ///< free particles inside a body after the last step (overlapping bodies)
   bool released = false;           ///< the hand's force exceeded F_release
+  bool overloaded = false;         ///< after the last step springs part the cloth (openings_of_overload)
   bool stopped = false;            ///< Engine::stop_when() asked for it; the state is that of the last whole step
   glm::dvec3 hand_force{0, 0, 0};  ///< on the held particle in the last step, N; the method itself takes it as 0
 };

@@ -9,6 +9,7 @@
 
 #include "core/forces/contact.h"
 #include "core/forces/force.h"
+#include "core/forces/parted.h"
 #include "core/simd/row_field.h"
 
 namespace tyglab {
@@ -212,6 +213,11 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
     for_each_action(preset, tears, force, stencil, x_of, x_of,
                     [&](const Points&, const ForceAction& action) { motion.squared += 2 / preset.m * action.energy; });
   });
+  for (const LooseStencil& loose : loose_stencils(preset, tears)) {
+    const auto x_of_particle = [&](int particle) { return x_of(particle / lattice.columns, particle % lattice.columns); };
+    if (loose.force->group == Force::Group::internal && loose.force->conserves)
+      motion.squared += 2 / preset.m * action_of(preset, loose, x_of_particle, x_of_particle).energy;
+  }
   motion.squared += 2 / preset.m * curl_below_zero(preset) * lattice.size();
   return motion;
 }
@@ -231,8 +237,10 @@ bool find_runaway(const MotionLimit& limit, const Lattice& lattice, const StateV
       if (away > about * far) far = away, of_place.i = i, of_place.j = j;
     }
   of_speed.value = std::sqrt(fastest), of_place.value = far;
-  of_speed.excess = of_place.excess = MotionLimit::factor * sum / limit.most_squared();
-  const bool too_fast = !(sum <= limit.most_squared());
+  // Particles of a cloth that has parted have at least a quarter of a mass.
+  const double most = limit.most_squared() * (lattice.copy_rows > 0 ? Mesh::cells_round : 1);
+  of_speed.excess = of_place.excess = MotionLimit::factor * sum / most;
+  const bool too_fast = !(sum <= most);
   fault = too_fast ? of_speed : of_place;
   return too_fast || !(far <= limit.farthest());
 }

@@ -72,6 +72,7 @@ BatchResult StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Faul
     const bool release = step.hand_force && rules_.F_release > 0 && glm::length(*step.hand_force) > rules_.F_release;
     if ((tear || look || fast || release) && n < count - 1) return {n + 1, BatchEnd::rolled_back};
     if (tear) tear_budget_ = engine.tear_overloaded(tears);
+    const bool parts = tear && rules_.parting && !(tear_budget_ > 0) && !repeating_;
     if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, BatchEnd::fault};
     if (fast && engine.find_runaway(limit_, fault)) return {n, BatchEnd::fault};
     unconverged_steps_ += !step.converged, rounded_steps_ += step.rounded;
@@ -79,6 +80,7 @@ BatchResult StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Faul
     longest_limited_ = std::max(longest_limited_, step.limited_seconds);
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
     if (release) return {n + 1, BatchEnd::released};
+    if (parts) return {n + 1, BatchEnd::overloaded};
   }
   return {count, BatchEnd::complete};
 }
@@ -97,7 +99,9 @@ void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudg
   if (rules_.tearing) tears = tears_backup_;
   spend_budgets();
   limit_ = limit_backup_;
+  repeating_ = true;
   engine.repeat(steps, tears);
+  repeating_ = false;
   spend_budgets();
   limit_ = limit_backup_;  // whether or not the engine has judged them
   for (int n = unjudged; n < steps; ++n) limit_.pass(limit_.dt());
@@ -123,7 +127,7 @@ AdvanceResult StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, 
   assert(steps >= 0);
   Fault fault{};
   if (energy_stale_ || pushes_stale_) remeasure(engine, tears);
-  while (result.steps < steps && !result.diverged && !result.released && !result.stopped) {
+  while (result.steps < steps && !result.diverged && !result.released && !result.stopped && !result.overloaded) {
     if (stop && stop()) {
       result.stopped = true;
       break;
@@ -151,6 +155,7 @@ AdvanceResult StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, 
     }
     result.diverged = made.end == BatchEnd::fault;
     result.released = made.end == BatchEnd::released;
+    result.overloaded = made.end == BatchEnd::overloaded;
     result.stopped = made.end == BatchEnd::stopped;
     result.steps += made.count;
     if (result.diverged || (result.stopped && rules_.costly_steps))

@@ -25,6 +25,7 @@ enum class BatchEnd {
   complete,
   fault,       ///< the step after those that count diverged; the state is the one after it
   released,    ///< in the last step the hand's force exceeded F_release
+  overloaded,  ///< after the last step springs part the cloth (GuardedSteps::tear_overloaded)
   stopped,     ///< from outside; where steps are costly, within the step after those that count
   rolled_back  ///< the last step that counts must be examined, but later ones have overwritten its state
 };
@@ -60,7 +61,7 @@ class GuardedSteps {
   /// Measures of a step that is being checked; the first is 0.
   virtual StepMeasures measures(int step) = 0;
   /// Breaks the springs that are overloaded in the present state. Returns by how much any other spring may grow before
-  /// it can be overloaded, m.
+  /// it can be overloaded, m. Where a cloth parts instead (parted.h), breaks none, and returns 0 if one parts it.
   virtual double tear_overloaded(Tears& tears) = 0;
   /// Examines every particle and whole spring of the present state, with `tears` brought up to date. If all is well,
   /// sets by how much any spring may grow before it can be too long, m.
@@ -89,6 +90,7 @@ class StepGuard {
 
   struct Rules {
     bool tearing = false;  ///< springs can be overloaded
+    bool parting = false;  ///< and then part the cloth
     double F_release = 0;  ///< N; 0: the hand does not let go
     /// A step costs more than a backup, and may be stopped halfway: every run of steps begins with a backup, and has
     /// one step where it may be stopped or must not be repeated.
@@ -166,6 +168,7 @@ class StepGuard {
   double tear_budget_ = 0;        ///< before one can be overloaded, m
   double elongation_ = std::numeric_limits<double>::infinity();  ///< of the last step at most, m; ∞: not known
   int since_backup_ = -1;                                        ///< steps; < 0: there is no backup
+  bool repeating_ = false;                                       ///< steps that have been judged
   int torn_ = 0;                                                 ///< springs, after the last step
   Tears tears_backup_;
   MotionLimit limit_, limit_backup_;

@@ -8,12 +8,13 @@ namespace tyglab {
 bool Stencil::acts(const Tears& tears, int i, int j) const {
   if (owners != Owners::all && ((i + j) % 2 == 0) != (owners == Owners::even)) return false;
   for (int n = 0; n < points; ++n)
-    if (!tears.lattice().contains(i + at[std::size_t(n)].di, j + at[std::size_t(n)].dj)) return false;
+    if (!tears.lattice().has_site(i + at[std::size_t(n)].di, j + at[std::size_t(n)].dj)) return false;
   const auto joined = [&](const Spring& s) {
     return tears.lattice().has_spring(s.direction, i + s.di, j + s.dj) && tears.whole(s.direction, i + s.di, j + s.dj);
   };
   if (alone && joined(other)) return false;
   if (tears.untorn()) return true;
+  if (springs == 0 && tears.parted(i, j)) return false;
   for (int n = 0; n < springs; ++n) {
     const Spring& s = spring[std::size_t(n)];
     if (!tears.whole(s.direction, i + s.di, j + s.dj)) return false;

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/forces/parted.h"
+
 namespace tyglab {
 namespace {
 
@@ -75,6 +77,19 @@ ForcesByKey<glm::dvec3> by_key(const ParticleForces& on) {
 
 ForcesAmong forces_among(const Preset& p, const Tears& tears, const State& state) {
   ForcesAmong found;
+  const auto at = [](const VectorField<double>& field) {
+    return [&field](int n) {
+      const auto particle = std::size_t(n);
+      return glm::dvec3(field.x[particle], field.y[particle], field.z[particle]);
+    };
+  };
+  for (const LooseStencil& loose : loose_stencils(p, tears)) {
+    const ForceAction action = action_of(p, loose, at(state.x), at(state.v));
+    std::vector<glm::dvec3>& F = found.forces[*loose.force];
+    if (F.empty()) F.assign(std::size_t(tears.lattice().size()), glm::dvec3(0));
+    found.energy[*loose.force] += action.energy;
+    for (std::size_t n = 0; n < std::size_t(loose.stencil->points); ++n) F[std::size_t(loose.at[n])] += action.F[n];
+  }
   std::vector<glm::dvec3> x, v;
   for (const Force* force : force::all) {
     if (force->among == nullptr || !force->on(p)) continue;

@@ -58,7 +58,8 @@ struct StencilForce {
   glm::dvec3 F{0};       ///< N
 };
 
-/// What forces between particles that are near in space (Force::among) do to all of them.
+/// What forces do to all particles that no stencil of the lattice tells: those between particles that are near in space
+/// (Force::among), and those of loose stencils (parted.h).
 struct ForcesAmong {
   PerForce<double> energy;                   ///< J
   PerForce<std::vector<glm::dvec3>> forces;  ///< N, at i·columns + j; empty: the scene does not have the force

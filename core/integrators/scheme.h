@@ -148,6 +148,10 @@ inline bool takes_self_contact(const Scheme& scheme) {
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;
 }
+/// Whether it takes a cloth that parts (parted.h): its forces are those at known positions and velocities.
+inline bool parts_cloth(const Scheme& scheme) {
+  return takes_self_contact(scheme) && !solves_damping(scheme);
+}
 /// Whether a method's sums, evaluation by evaluation, are all of its step: it is explicit, with a fixed dt.
 inline bool is_written_out(const Scheme& scheme) {
   return !is_implicit(scheme) && !chooses_steps(scheme) && !projects(scheme) && !solves_damping(scheme);

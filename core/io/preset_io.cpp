@@ -13,6 +13,7 @@
 
 #include "core/cloth/state.h"
 #include "core/contact/self_contact.h"
+#include "core/forces/parted.h"
 #include "core/integrators/scheme.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
@@ -53,6 +54,7 @@ std::string value_problem(const Row<T>& row, const T& object) {
                    " Known: " + joined(integrator_names());
           const std::span<const std::string_view> allowed = row.key == "contact" ? std::span(contact_names)
                                                             : row.key == "self"  ? std::span(self_names)
+                                                            : row.key == "tearing.mode" ? std::span(tearing_names)
                                                                                  : std::span<const std::string_view>();
           if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), value) == allowed.end())
             return "\"" + excerpt(value) + "\" is not known" + did_you_mean(value, allowed, ".") +
@@ -129,6 +131,20 @@ std::string self_contact_problem(const Preset& p) {
            " does not compute contact of the cloth with itself; methods that do: " + joined(can);
   }
   return {};
+}
+
+std::string parting_problem(const Preset& p) {
+  if (!parts(p)) return {};
+  const auto beside = [](const std::string& what) {
+    return "tearing.mode: split does not go with " + what + " yet; use springs";
+  };
+  if (touches_itself(p)) return beside("contact.self " + p.self) + ", or contact.self off";
+  if (force::curl.on(p)) return beside("a curvature at rest (kappa_warp, kappa_weft)");
+  if (parts_cloth(scheme(p.integrator))) return {};
+  std::vector<std::string_view> can;
+  for (const Scheme& method : schemes())
+    if (parts_cloth(method)) can.push_back(method.name);
+  return "tearing.mode: " + p.integrator + " does not part the cloth; methods that do: " + joined(can);
 }
 
 /// What is wrong with a motion of pins.
@@ -360,7 +376,9 @@ class Reader {
     if (in("cloth") && name == "pin_motions") return pin_motions(node, path, p.pins.motions);
     if (in("solver") && name == "engine") return choice(node, path, engine_names, p.engine);
     if (in("solver") && name == "precision") return choice(node, path, precision_names, p.precision);
-    if (const PresetRow* row = find_row(name); row && in(row->section)) return field(node, path, *row, p);
+    const PresetRow* row = section.empty() ? nullptr : find_row(std::string(section) + "." + name);
+    if (row == nullptr) row = find_row(name);
+    if (row && in(row->section)) return field(node, path, *row, p);
     if (const std::string home = home_of(name); !section.empty() && !home.empty())
       misplaced(node.line, path, name, home);
     std::vector<std::string_view> known;
@@ -368,7 +386,7 @@ class Reader {
     if (in("solver")) known.insert(known.end(), {"engine", "precision"});
     if (section.empty()) known.insert(known.end(), {"kind", "name", "description", "bodies"});
     for (const PresetRow& row : notation())
-      if (in(row.section)) known.push_back(row.key);
+      if (in(row.section)) known.push_back(section.empty() ? row.key : row.key_in_section());
     unknown(node.line, path, name, known);
   }
 
@@ -629,7 +647,7 @@ Preset with_settings(const Preset& preset, const std::vector<std::string>& setti
 std::string check_preset(const Preset& preset) {
   for (const PresetRow& row : notation())
     if (const auto problem = value_problem(row, preset); !problem.empty())
-      return std::string(row.section) + "." + std::string(row.key) + ": " + problem;
+      return std::string(row.section) + "." + std::string(row.key_in_section()) + ": " + problem;
   for (std::size_t n = 0; n < preset.bodies.size(); ++n)
     if (const auto problem = path_problem(preset.bodies[n]); !problem.empty())
       return "bodies[" + std::to_string(n) + "].path: " + problem;
@@ -640,6 +658,7 @@ std::string check_preset(const Preset& preset) {
   if (const auto problem = sites_problem(preset, preset.pins.mode, preset.pins.list); !problem.empty())
     return "cloth.pins: " + problem;
   if (const auto problem = motions_problem(preset); !problem.empty()) return "cloth.pin_motions: " + problem;
+  if (const auto problem = parting_problem(preset); !problem.empty()) return problem;
   return self_contact_problem(preset);
 }
 

@@ -89,7 +89,7 @@ std::string bodies_text(const std::vector<Body>& bodies) {
 
 /// Constants that the first release did not have. A hash leaves them out where they have their defaults, so that a
 /// scene without them keeps its own; and so it does a section of nothing else.
-constexpr std::array<std::string_view, 15> later{"self",    "thickness", "friction", "B",          "twist",
+constexpr std::array<std::string_view, 16> later{"tearing.mode", "self",    "thickness", "friction", "B",          "twist",
                                                  "contact", "k_warp",    "k_weft",   "k_shear",    "air_density",
                                                  "u",       "C_N",       "C_T",      "kappa_warp", "kappa_weft"};
 bool is_left_out(const PresetRow& row, const Preset& p) {
@@ -105,7 +105,7 @@ std::string section_text(std::string_view section, const Preset& p, bool hashed)
   };
   for (const PresetRow& row : notation())
     if (row.section == section && !is_absent(row, p) && !(hashed && is_left_out(row, p)))
-      add(row.key, field_text(row, p));
+      add(row.key_in_section(), field_text(row, p));
   if (section == "cloth") add("pins", sites_text(p.pins.mode, p.pins.list));
   if (const std::string motions = section == "cloth" ? motions_text(p) : "[]"; motions != "[]")
     add("pin_motions", motions);

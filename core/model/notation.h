@@ -25,7 +25,7 @@ using FieldOf = std::variant<double T::*, int T::*, glm::dvec3 T::*, std::string
 template <class T>
 struct Row {
   std::string_view section;   ///< block of the preset file: "cloth", "forces", …; empty at the top level
-  std::string_view key;       ///< inner key, also that of --set
+  std::string_view key;       ///< inner key, also that of --set; with its section where another one has the same
   std::string_view symbol;    ///< the report's symbol, subscript after '_': "k_s", "F_max"
   std::string_view quantity;  ///< English
   std::string_view storhet;   ///< Swedish, the report's word where it has one
@@ -43,6 +43,11 @@ struct Row {
   double usual = 1;                 ///< a usual value, where the default is 0
   std::string_view otherwise = {};  ///< the key of the constant that counts while this one is `left_out`; empty: it has
                                     ///< a value in every preset
+  /// The key as its section of the file has it.
+  std::string_view key_in_section() const {
+    const std::size_t dot = key.find('.');
+    return dot == std::string_view::npos ? key : key.substr(dot + 1);
+  }
 };
 
 using PresetRow = Row<Preset>;

@@ -106,6 +106,7 @@ struct Preset {
   // tearing
   double F_max = 0;      ///< 0: never
   double F_release = 0;  ///< 0: never
+  std::string tearing = "springs";  ///< what an overload does: one of tearing_names (words.h)
 
   // contact of the cloth with itself
   std::string self = "off";  ///< one of self_names (words.h)

@@ -22,6 +22,9 @@ inline constexpr std::array<std::string_view, 3> contact_names{"local", "step", 
 /// As people call them.
 inline constexpr std::array<const char*, contact_names.size()> contact_titles{"when met", "at end of step",
                                                                               "split step"};
+/// What an overloaded spring does: it breaks, and triangles vanish with it (the report's rule), or it parts the cloth.
+inline constexpr std::array<std::string_view, 2> tearing_names{"springs", "split"};
+inline constexpr std::array<const char*, tearing_names.size()> tearing_titles{"springs break", "cloth parts"};
 /// What keeps the cloth from passing through itself: nothing, a force, or that force and a bound of its motion.
 inline constexpr std::array<std::string_view, 3> self_names{"off", "repel", "guard"};
 inline constexpr std::array<const char*, self_names.size()> self_titles{"cross", "repel", "guard"};

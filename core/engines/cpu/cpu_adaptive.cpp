@@ -149,7 +149,7 @@ void CpuEngine<R, Present>::try_inner_step(int number, const Tears& tears) {
     if (&sweep == &sweeps_.front() && knows_first_a_) {
       band.assign(next_stage_, false);
     } else {
-      if (number == 0) find_near_force(sweep);
+      if (number == 0) find_given_force(sweep);
       band.copy_halo(sweep);
       team_->barrier();
       band.sweep(sweep, tears, false);

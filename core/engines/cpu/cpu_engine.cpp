@@ -131,7 +131,9 @@ void CpuEngine<R, Present>::resolve() {
   cloth_.bodies_move = any_moves(cloth_.preset.bodies);
   cloth_.bodies.swap(bodies);
   const Preset& p = cloth_.preset;
+  loose_.known_torn = -1;
   guard_.set_rules({.tearing = has(part::tearing) && tears_springs(p),
+                    .parting = parts(p),
                     .F_release = p.F_release,
                     .costly_steps = stops_within_steps()});
   guard_.set_scene(p, cloth_.lattice, cloth_.held);
@@ -280,7 +282,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::start(const Tears& tears) {
   follow_springs(tears);
   assert(synchronized_ && !scheme_->start.empty());
-  begin_self(tears), find_near_force(start_);
+  begin_self(tears), find_given_force(start_);
   // Its a sees v itself, so the sweep's velocity takes no power of dt.
   team_->run([&](int number) {
     bands_[std::size_t(number)]->copy_halo(start_);
@@ -319,7 +321,7 @@ void CpuEngine<R, Present>::add_lag(double lag, double scale) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
-  assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision &&
+  assert(lattice_of(preset) == cloth_.lattice.sites() && preset.precision == cloth_.preset.precision &&
          preset.integrator == cloth_.preset.integrator);
   const EffectSet changed = changes(cloth_.preset, preset);
   // All that takes memory comes first.
@@ -376,9 +378,9 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   for (const int p : all)
     for (int di = -1; di <= 1; ++di)
       for (int dj = -1; dj <= 1; ++dj)
-        if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj;
-            cloth_.lattice.contains(i, j))
-          guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
+        if (const int i = p / cloth_.lattice.columns, j = p % cloth_.lattice.columns;
+            cloth_.lattice.has_site(i, j) && cloth_.lattice.has_site(i + di, j + dj))
+          guards_[std::size_t(i + di) * cloth_.lattice.columns + j + dj] = 1;
   guard_.invalidate();
 }
 
@@ -419,7 +421,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
   follow_springs(tears);
-  begin_self(tears), find_near_force(look);
+  begin_self(tears), find_given_force(look);
   for (const auto& band : bands()) band->copy_halo(look);
   for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
 }
@@ -531,6 +533,7 @@ std::size_t CpuEngine<R, Present>::bytes() const {
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
+  total += loose_.stencils.capacity() * sizeof(LooseStencil) + loose_.force.bytes();
   if (self_ == nullptr) return total;
   for (const auto* list : {&self_->before, &self_->x, &self_->v, &self_->F})
     total += list->capacity() * sizeof(glm::dvec3);

@@ -41,6 +41,7 @@
 #include "core/engines/cpu/thread_governor.h"
 #include "core/engines/engine.h"
 #include "core/engines/step_guard.h"
+#include "core/forces/parted.h"
 #include "core/integrators/scheme.h"
 #include "core/integrators/stabilized.h"
 
@@ -150,7 +151,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
   /// Takes what forces that are linear in positions make of the springs (linear_springs.h); on one thread, wherever
   /// tears or the preset may have changed.
-  void follow_springs(const Tears& tears) { cloth_.springs.follow(cloth_.preset, tears, cloth_.stride); }
+  void follow_springs(const Tears& tears) {
+    cloth_.springs.follow(cloth_.preset, tears, cloth_.stride), follow_loose(tears);
+  }
   /// F/m at two of the vectors. `of_step`: as Band has it.
   void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
   void accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);
@@ -218,6 +221,11 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// For a method that solves for the damping: the matrix, where springs or what is fixed have changed.
   void prepare_damping(const Tears& tears);
   Balance damping_balance() const;
+  // Where the cloth has parted (cpu_loose.cpp).
+  void follow_loose(const Tears& tears);
+  void find_given_force(const ResolvedSweep& sweep);
+  double loose_slack(const Tears& tears) const;
+  double share_held() const;
   // Contact of the cloth with itself, on one thread (cpu_self.cpp).
   void begin_self(const Tears& tears);
   void look_around(int vector, bool room);
@@ -281,6 +289,16 @@ class CpuEngine final : public Engine, private GuardedSteps {
     std::int64_t held_back = 0, held_back_then = 0;  ///< by the guard; and as of the backup
   };
   std::unique_ptr<Self> self_;
+  /// Loose stencils of a cloth that has parted, and the particles that they act on, by whose place here they name them.
+  struct Loose {
+    std::vector<LooseStencil> stencils;
+    std::vector<int> particles;
+    std::vector<double> per_share;
+    std::vector<glm::dvec3> x, v, F;
+    Field force;
+    int known_torn = 0;  ///< -1: the constants have changed
+  };
+  Loose loose_;
   std::int64_t damping_products_ = 0;  ///< of a method that solves for the damping, in all steps
   int known_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made

@@ -21,7 +21,7 @@ StateView<R> CpuEngine<R, Present>::view() const {
 template <class R, unsigned Present>
 double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
   assert(cloth_.preset.F_max > 0);
-  double slack = std::numeric_limits<double>::infinity();
+  double slack = loose_slack(tears);
   for (int d = 0; d < stretch_directions; ++d) {
     const double longest =
         directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / spring_constant(cloth_.preset, directions[d]);
@@ -32,7 +32,7 @@ double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
 }
 
 /// Breaks the overloaded springs of a row in one direction; returns the square of the longest one that it leaves and
-/// that could break, m².
+/// that could break, m². Infinity, and none is broken, if one parts the cloth.
 template <class R, unsigned Present>
 double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   assert(d >= 0 && d < stretch_directions);
@@ -48,7 +48,9 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   for (int j = begin; j < end; ++j) {
     if (!tears.whole(d, i, j) || guarded(i, j) || guarded(i + dir.di, j + dir.dj)) continue;
     const double r2 = distance2(view(), i, j, dir);
-    if (HWY_NAMESPACE::stretch_tension(k, rest, r2) > cloth_.preset.F_max)
+    if (const bool over = HWY_NAMESPACE::stretch_tension(k, rest, r2) > cloth_.preset.F_max; over && parts(cloth_.preset))
+      return std::numeric_limits<double>::infinity();
+    else if (over)
       tears.tear(d, i, j);
     else
       left = std::max(left, r2);
@@ -83,7 +85,7 @@ StepMeasures CpuEngine<R, Present>::measures(int step) {
   for (const auto& band : judged) {
     largest = std::max(largest, band->max_displacement());
     result.left_inside += band->left_inside();
-    if (hand && !projected && band->has_hand()) result.hand_force = band->hand_force();
+    if (hand && !projected && band->has_hand()) result.hand_force = share_held() * band->hand_force();
   }
   if (hand && (projected || is_implicit(*scheme_)))
     result.hand_force = result.hand_force.value_or(glm::dvec3(0)) + hand_force_;
@@ -135,7 +137,7 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
       team_->barrier();
       continue;
     }
-    if (number == 0) find_near_force(sweep);
+    if (number == 0) find_given_force(sweep);
     band.copy_halo(sweep);
     team_->barrier();
     band.sweep(sweep, tears, last);
@@ -195,7 +197,7 @@ template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_in_wave(int left) const {
   const int most = std::min(left, wave_steps_);
   const bool hand = has(part::hand) && cloth_.held.particle >= 0 && cloth_.preset.F_release > 0;
-  return most <= 1 || hand ? 1 : guard_.steps_ahead(most);
+  return most <= 1 || hand || !loose_.particles.empty() ? 1 : guard_.steps_ahead(most);
 }
 
 template <class R, unsigned Present>
@@ -226,8 +228,8 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
   const auto plan = [&] {
     int left = made_.end == BatchEnd::complete ? steps - made_.count : 0;
     if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = BatchEnd::stopped, left = 0;
+    if (left > 0) follow_springs(tears);
     together_ = left > 0 && waves ? steps_in_wave(left) : std::min(left, 1);
-    if (together_ > 0) follow_springs(tears);
     if (together_ > 0 && cloth_.bodies_move) cloth_.bodies = bodies_in(together_);
     for (Progress& progress : progress_) progress.restart();
   };

@@ -9,6 +9,7 @@
 #include "core/cloth/state.h"
 #include "core/engines/engine.h"
 #include "core/engines/opencl/program_text.h"
+#include "core/forces/parted.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {
@@ -57,10 +58,12 @@ bool runs_on_opencl(const Scheme& method) {
 const Force* missing_on_opencl(const Preset& preset) {
   for (const Force* force : {&force::curl, &force::self})
     if (force->on(preset)) return force;
+  if (parts(preset)) return &force::stretch;
   return force::air.on(preset) && is_implicit(scheme(preset.integrator)) ? &force::air : nullptr;
 }
 
 std::string words_of_missing(const Force& force, std::string_view method) {
+  if (&force == &force::stretch) return "tearing.mode split";
   return std::string(force.symbol) + (&force == &force::air ? " with " + std::string(method) : "");
 }
 
@@ -79,6 +82,7 @@ std::string opencl_problem(const Preset& preset) {
          "; use the CPU engine (--engine cpu)" +
          (missing == &force::air    ? ", an explicit method such as verlet, or air_density = 0"
           : missing == &force::self ? " or self = off"
+          : missing == &force::stretch ? " or tearing.mode = springs"
                                     : " or kappa_warp = kappa_weft = 0");
 }
 

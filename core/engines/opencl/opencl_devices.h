@@ -60,7 +60,8 @@ std::string no_device_words(const std::string& problem);
 
 /// Whether OpenCL devices run the method: it must have a fixed dt and not project.
 bool runs_on_opencl(const Scheme& method);
-/// A force of the scene that OpenCL devices do not compute with its method; nullptr if there is none.
+/// A force of the scene that OpenCL devices do not compute with its method, F_s in a cloth that parts; nullptr if there
+/// is none.
 const Force* missing_on_opencl(const Preset& preset);
 /// "F_curl", or "F_air with implicit_euler" where other methods compute it: what is missing, in sentences.
 std::string words_of_missing(const Force& force, std::string_view method);

@@ -35,6 +35,14 @@ Vector forces(const Preset& preset, const Tears& tears, const Vector& x, const V
           for (std::size_t n = 0; n < std::size_t(stencil.points); ++n) F[particle[n]] += action.F[n];
         }
   }
+  // Where the cloth has parted.
+  const auto x_of = [&](int n) { return x[std::size_t(n)]; };
+  const auto v_of = [&](int n) { return v[std::size_t(n)]; };
+  for (const LooseStencil& loose : loose_stencils(preset, tears)) {
+    if (external_only && loose.force->group == Force::Group::internal) continue;
+    const ForceAction action = action_of(preset, loose, x_of, v_of);
+    for (std::size_t n = 0; n < std::size_t(loose.stencil->points); ++n) F[std::size_t(loose.at[n])] += action.F[n];
+  }
   return F;
 }
 
@@ -43,7 +51,8 @@ Vector Cloth::accelerations(int position, int velocity, double per, const Tears&
   for (glm::dvec3& one : v) one *= per;
   Vector a = forces(preset, tears, vectors[std::size_t(position)], v, external_only);
   if (held >= 0) hand_force = a[std::size_t(held)];
-  for (std::size_t p = 0; p < a.size(); ++p) a[p] = fixed[p] != 0 ? glm::dvec3(0) : a[p] / preset.m;
+  for (std::size_t p = 0; p < a.size(); ++p)
+    a[p] = fixed[p] != 0 ? glm::dvec3(0) : a[p] / (preset.m * tears.share(int(p)));
   return a;
 }
 
@@ -126,14 +135,22 @@ void Cloth::collide(const Vector& x_before, const Vector& v_before, double t) {
 
 double Cloth::tear_overloaded(Tears& tears) const {
   const Lattice& lattice = tears.lattice();
-  const auto guarded = [&](int i, int j) {
-    for (int di = -1; di <= 1; ++di)
-      for (int dj = -1; dj <= 1; ++dj)
-        if (lattice.contains(i + di, j + dj) && fixed[std::size_t((i + di) * lattice.columns + j + dj)] != 0)
-          return true;
-    return false;
-  };
+  std::vector<std::uint8_t> guards(std::size_t(lattice.size()), 0);
+  for (int i = 0; i < lattice.rows - lattice.copy_rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j)
+      for (int di = -1; di <= 1; ++di)
+        for (int dj = -1; dj <= 1; ++dj)
+          if (lattice.has_site(i + di, j + dj) && fixed[std::size_t((i + di) * lattice.columns + j + dj)] != 0)
+            guards[std::size_t(i * lattice.columns + j)] = 1;
+  const auto guarded = [&](int i, int j) { return guards[std::size_t(i * lattice.columns + j)] != 0; };
   double slack = std::numeric_limits<double>::infinity();
+  for (const LooseStencil& loose : loose_stencils(preset, tears)) {
+    if (loose.force != &force::stretch || !overload_parts(tears, guards, loose.at[0], loose.at[1])) continue;
+    const Vector& x = vectors[vector_x];
+    const double length = glm::distance(x[std::size_t(loose.at[0])], x[std::size_t(loose.at[1])]);
+    const double k = spring_constant(preset, directions[std::size_t(loose.stencil->spring[0].direction)]);
+    slack = std::min(slack, std::max(preset.F_max / k - (length - loose.stencil->rest * preset.L), 0.0));
+  }
   for (int d = 0; d < stretch_directions; ++d)
     for (int i = 0; i < lattice.rows; ++i)
       for (int j = 0; j < lattice.columns; ++j) {
@@ -143,7 +160,10 @@ double Cloth::tear_overloaded(Tears& tears) const {
         const double length =
             glm::distance(x[std::size_t(i * lattice.columns + j)], x[std::size_t((i + di) * lattice.columns + j + dj)]);
         const double longer = length - rest * preset.L;
-        if (const double k = spring_constant(preset, directions[std::size_t(d)]); k * longer > preset.F_max)
+        const double k = spring_constant(preset, directions[std::size_t(d)]);
+        if (parts(preset) && k * longer > preset.F_max)
+          slack = 0;
+        else if (k * longer > preset.F_max)
           tears.tear(d, i, j);
         else
           slack = std::min(slack, preset.F_max / k - longer);

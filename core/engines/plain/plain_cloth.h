@@ -14,6 +14,7 @@
 #include "core/engines/engine.h"
 #include "core/forces/contact.h"
 #include "core/forces/force.h"
+#include "core/forces/parted.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::plain {
@@ -56,7 +57,7 @@ struct Cloth {
   /// The method's own start.
   void start(const Tears& tears);
   /// Breaks the springs whose F_s exceeds F_max, but those near what is pinned or held. Returns by how much any other
-  /// may grow before it breaks, m.
+  /// may grow before it breaks, m. Where the cloth parts instead, breaks none, and returns 0 if one parts it.
   double tear_overloaded(Tears& tears) const;
 
  private:

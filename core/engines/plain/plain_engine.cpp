@@ -118,7 +118,7 @@ class PlainEngine final : public Engine, private GuardedSteps {
 
 void PlainEngine::take_preset(const Preset& preset) {
   cloth_.preset = preset;
-  guard_.set_rules({.tearing = tears_springs(preset), .F_release = preset.F_release});
+  guard_.set_rules({.tearing = tears_springs(preset), .parting = parts(preset), .F_release = preset.F_release});
   guard_.set_scene(preset, lattice_, held_);
   guard_.invalidate();
 }
