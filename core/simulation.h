@@ -86,7 +86,11 @@ class Simulation {
     engine_ = wrap(std::move(engine_));
   }
   const Engine& engine() const { return *engine_; }
-  PositionView positions() const { return engine_->positions(); }
+  PositionView positions() const {
+    PositionView view = engine_->positions();
+    view.absent = lattice_.size() - tears_.particles();
+    return view;
+  }
   /// Position of one particle.
   glm::dvec3 position(int i, int j) const { return engine_->position(i, j); }
 

@@ -12,13 +12,21 @@ out float value;
 uniform int stride;        // particles a row of the arrays
 #endif
 uniform vec2 texture_step;  // 1/(C-1), 1/(R-1)
+uniform int site_rows, columns;
+uniform highp usampler2D copy_sites;  // column and row of the site of each copy, in the rows after those of the sites
 out vec3 position;
 out vec3 normal;
 out vec2 across;  // 0..1 along the columns and down the rows
 
 void main() {
   int i = gl_VertexID / stride;
-  across = vec2(gl_VertexID - i * stride, i) * texture_step;
+  int j = gl_VertexID - i * stride;
+  if (i >= site_rows) {
+    int copy = (i - site_rows) * columns + j;
+    uvec2 site = texelFetch(copy_sites, ivec2(copy & 4095, copy >> 12), 0).rg;
+    i = int(site.y), j = int(site.x);
+  }
+  across = vec2(j, i) * texture_step;
   position = vec3(x, y, z);
   normal = vec3(normal_x, normal_y, normal_z);
 #ifdef COLORED

@@ -171,12 +171,16 @@ const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl:
 
 /// What both programs need that draw the cloth's surface (cloth.frag).
 void ClothRenderer::Parts::set_surface(const gl::Program& program, const ViewOptions& options) {
-  const Lattice& lattice = mesh.lattice();
+  const Lattice lattice = mesh.lattice().sites();
   const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
   program.set("cloth", texture_unit);
   program.set("shadow_map", shadow_unit);
   program.set("stride", mesh.stride());
   program.set("texture_step", 1.0f / steps);
+  program.set("site_rows", lattice.rows);
+  program.set("columns", lattice.columns);
+  program.set("copy_sites", copies_unit);
+  mesh.bind_copy_sites(copies_unit);
   program.set("hem", options.palette.hem);
   program.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
 }

@@ -52,10 +52,11 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
     for (IndexList& list : lists_) list.ready = false;
     beside_tears_.reset();
     normals_ready_ = false;
+    take_copies(scene.tears);
   }
   glBindVertexArray(array_.id());
   const bool needs_normals = options.lit() && (moved || !normals_ready_);
-  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0]};
+  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0], view.absent};
   if (scene.writer)
     have_written(scene, moved, needs_normals, work);
   else
@@ -79,6 +80,17 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
     normal_texels_ready_ = true;
   }
   glBindVertexArray(0);
+}
+
+/// The sites of copies, at which they have their place in the texture.
+void ClothMesh::take_copies(const Tears& tears) {
+  std::vector<std::uint32_t> sites;
+  for (int n = lattice_.sites().size(); n < tears.particles(); ++n) {
+    const Pins::Site site = tears.site(n);
+    sites.push_back(std::uint32_t(site.j)), sites.push_back(std::uint32_t(site.i));
+  }
+  if (sites.empty()) sites.assign(2, 0);  // a shader must have some
+  copy_sites_.take(sites.data(), sites.size() / 2);
 }
 
 /// Positions from the engine's memory, where they lie or by a copy.
@@ -215,7 +227,9 @@ void ClothMesh::prepare(List list, const ClothScene& scene) {
       indices = connection_indices(lattice_, stride_, scene.tears);
       break;
     case List::particles:
-      indices = particle_indices(lattice_, stride_, [](int, int) { return true; });
+      indices = particle_indices(lattice_, stride_, [&](int i, int j) {
+        return i * lattice_.columns + j < scene.tears.particles();
+      });
       break;
     case List::pins:
       if (scene.pinned) indices = particle_indices(lattice_, stride_, scene.pinned);

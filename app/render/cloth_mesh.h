@@ -29,6 +29,7 @@ struct FloatRows {
   int rows = 0, columns = 0;
   int component = 0;  ///< from a row's x to its y and from its y to its z
   const float* data = nullptr;
+  int absent = 0;  ///< at the end there are no particles (PositionView)
   int stride() const { return 3 * component; }
   std::size_t size() const { return std::size_t(rows) * std::size_t(stride()); }
   const float* row(int i, int c) const { return data + std::size_t(i) * stride() + std::size_t(c) * component; }
@@ -44,7 +45,7 @@ std::uint32_t whole_triangles(const Lattice& lattice, const Tears& tears, int i,
 void compute_normals(const FloatRows& positions, const Tears& tears, std::span<const std::uint32_t> beside_tears,
                      float* normals);
 
-/// The box of all finite components.
+/// The box of all finite components of particles.
 Bounds finite_bounds(const FloatRows& positions);
 
 // Connections between particles in a view: lists of vertex indices, where particle (i, j) is vertex i·stride + j.
@@ -105,6 +106,8 @@ class ClothMesh {
   /// Of all buffers here but lent ones, on either side of the bus.
   std::size_t bytes() const;
   const Lattice& lattice() const { return lattice_; }
+  /// Binds the sites of copies, their column and row, to a texture unit.
+  void bind_copy_sites(int unit) const { copy_sites_.bind(unit); }
 
  private:
   struct IndexList {
@@ -117,6 +120,7 @@ class ClothMesh {
   void take_positions(const PositionView& positions, bool moved, RenderWork& work);
   void have_written(const ClothScene& scene, bool moved, bool normals, RenderWork& work);
   VertexSource make_normals(const ClothScene& scene, RenderWork& work);
+  void take_copies(const Tears& tears);
   void prepare(List list, const ClothScene& scene);
   void draw_pieces(List list, int indices, int positions_unit, int indices_unit) const;
   VertexSource copied(gl::Buffer& to, const float* data, RenderWork& work) const;
@@ -132,6 +136,7 @@ class ClothMesh {
   VertexSource position_source_, normal_source_;  ///< of what is drawn
   TexelArray position_texels_{TexelArray::Of::floats}, normal_texels_{TexelArray::Of::floats};
   VertexPath vertex_path_ = VertexPath::copied;
+  TexelArray copy_sites_{TexelArray::Of::index_pairs};
   std::array<IndexList, int(List::count)> lists_;
   std::vector<float> converted_;  ///< of a solver in double
   FloatRows floats_;              ///< valid during update() alone; without data where they are written

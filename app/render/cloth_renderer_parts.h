@@ -53,7 +53,7 @@ struct ClothRenderer::Shared {
 struct ClothRenderer::Parts {
   /// The texture units used while the cloth is drawn.
   static constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3, positions_unit = 4,
-                       lines_unit = 5, normals_unit = 6;
+                       lines_unit = 5, normals_unit = 6, copies_unit = 7;
   static inline const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
 
   std::shared_ptr<Shared> shared;

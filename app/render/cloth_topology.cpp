@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/forces/parted.h"
+
 namespace tyglab {
 namespace {
 
@@ -23,7 +25,7 @@ Edge edge_between(Corner a, Corner b, int i, int j) {
 }
 
 template <class Visit>
-void for_each_triangle(const Lattice& lattice, Visit visit) {
+void for_each_cell(const Lattice& lattice, Visit visit) {
   for (int i = 0; i + 1 < lattice.rows; ++i)
     for (int j = 0; j + 1 < lattice.columns; ++j)
       for (int which = 0; which < 2; ++which) visit(i, j, which);
@@ -55,6 +57,10 @@ class EdgeSet {
   std::vector<std::uint8_t> bits_;
 };
 
+std::uint32_t vertex(int particle, const Lattice& lattice, int stride) {
+  return std::uint32_t(particle / lattice.columns * stride + particle % lattice.columns);
+}
+
 const std::array<Corner, 3>& corners_of(int i, int j, int which) {
   return quad_triangles[(i + j) & 1][which];
 }
@@ -64,9 +70,8 @@ const std::array<Corner, 3>& corners_of(int i, int j, int which) {
 Indices triangle_indices(const Lattice& lattice, int stride, const Tears& tears) {
   Indices list;
   list.reserve(std::size_t(6) * (lattice.rows - 1) * (lattice.columns - 1));
-  for_each_triangle(lattice, [&](int i, int j, int which) {
-    if (!tears.untorn() && !tears.triangle_whole(i, j, which)) return;
-    for (const Corner& c : corners_of(i, j, which)) list.push_back(std::uint32_t((i + c.di) * stride + j + c.dj));
+  for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
+    for (const int particle : {a, b, c}) list.push_back(vertex(particle, lattice, stride));
   });
   return list;
 }
@@ -84,12 +89,27 @@ Indices spring_indices(const Lattice& lattice, int stride, const Tears& tears, i
       }
     }
   }
+  for (const LooseSpring& spring : loose_springs(tears, first, last))
+    for (const int particle : {spring.a, spring.b}) list.push_back(vertex(particle, lattice, stride));
   return list;
 }
 
 Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears) {
+  if (tears.mesh() != nullptr) {
+    std::vector<std::pair<int, int>> pairs;
+    for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        pairs.emplace_back(std::min(from, to), std::max(from, to));
+    });
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    Indices list;
+    for (const auto& [from, to] : pairs)
+      list.push_back(vertex(from, lattice, stride)), list.push_back(vertex(to, lattice, stride));
+    return list;
+  }
   EdgeSet edges(lattice);
-  for_each_triangle(lattice, [&](int i, int j, int which) {
+  for_each_cell(lattice, [&](int i, int j, int which) {
     if (!tears.triangle_whole(i, j, which)) return;
     const auto& c = corners_of(i, j, which);
     for (int k = 0; k < 3; ++k) edges.add(edge_between(c[k], c[(k + 1) % 3], i, j));
@@ -99,8 +119,8 @@ Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears) 
 
 Indices connection_indices(const Lattice& lattice, int stride, const Tears& tears) {
   EdgeSet edges(lattice);
-  if (tears.untorn()) return {};
-  for_each_triangle(lattice, [&](int i, int j, int which) {
+  if (tears.untorn() || tears.mesh() != nullptr) return {};  // where the cloth parts, no triangle is lost
+  for_each_cell(lattice, [&](int i, int j, int which) {
     if (tears.triangle_whole(i, j, which)) return;
     const auto& c = corners_of(i, j, which);
     for (int k = 0; k < 3; ++k) edges.add(edge_between(c[k], c[(k + 1) % 3], i, j));
@@ -111,7 +131,7 @@ Indices connection_indices(const Lattice& lattice, int stride, const Tears& tear
 }
 
 Indices frayed_indices(const Lattice& lattice, int stride, const Tears& tears) {
-  if (tears.untorn()) return {};
+  if (tears.untorn() || tears.mesh() != nullptr) return {};
   Indices list;
   const auto whole = [&](Corner a, Corner b) {
     const Edge e = edge_between(a, b, 0, 0);
@@ -185,7 +205,13 @@ void remove_long(Indices& indices, int corners, const FloatRows& p, float longes
 std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears) {
   if (tears.untorn()) return {};
   std::vector<bool> beside(lattice.size(), false);
-  for_each_triangle(lattice, [&](int i, int j, int which) {
+  if (const Mesh* mesh = tears.mesh())
+    for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
+      const auto parted = [&](int particle) { return mesh->parted(mesh->site(particle)); };
+      if (parted(a) || parted(b) || parted(c)) beside[std::size_t(a)] = beside[std::size_t(b)] = beside[std::size_t(c)] = true;
+    });
+  else
+    for_each_cell(lattice, [&](int i, int j, int which) {
     if (tears.triangle_whole(i, j, which)) return;
     for (const Corner& c : corners_of(i, j, which)) beside[(i + c.di) * lattice.columns + j + c.dj] = true;
   });

@@ -16,8 +16,9 @@ int drawn_every(const Lattice& lattice, int width, int height) {
 }
 
 void DrawnCloth::take(const ClothScene& scene, int every, bool moved, bool topology_changed) {
-  if (every != sites_.every || scene.lattice != sites_.whole) moved = topology_changed = true;
-  sites_ = {scene.lattice, every};
+  // Of a cloth that has parted the sites alone: copies are nearer to them than a pixel, and their cells are left out.
+  if (every != sites_.every || scene.lattice.sites() != sites_.whole) moved = topology_changed = true;
+  sites_ = {scene.lattice.sites(), every};
   lattice_ = {sites_.rows(), sites_.columns()};
   if (moved && !scene.writer) take_positions(scene.positions);
   if (topology_changed) take_tears(scene.tears);

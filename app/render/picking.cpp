@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/forces/contact.h"
+#include "core/forces/parted.h"
 
 namespace tyglab {
 namespace {
@@ -73,7 +74,9 @@ std::vector<Picture> pictures(const PositionView& positions, const Camera& camer
   const Sieve sieve(camera, size, a, b);
   for (int i = 0; i < positions.rows; ++i) {
     for (int begin = 0; begin < positions.columns; begin += Sieve::block) {
-      const int end = std::min(begin + Sieve::block, positions.columns);
+      const int places = positions.rows * positions.columns - positions.absent - i * positions.columns;
+      const int end = std::min({begin + Sieve::block, positions.columns, places});
+      if (end <= begin) break;
       if (!sieve.any(positions, i, begin, end - begin)) continue;
       for (int j = begin; j < end; ++j) {
         const glm::dvec3 x = positions.at(i, j);
@@ -204,12 +207,13 @@ class StrokeSet {
     }
   }
 
+  Seen look(const glm::dvec3& x) const {
+    const auto pixel = project_(x);
+    return pixel && std::isfinite(pixel->x) && std::isfinite(pixel->y) ? Seen{*pixel, true} : Seen{};
+  }
   void look(const PositionView& positions, int i, std::vector<Seen>& row) const {
-    row.assign(std::size_t(positions.columns), {});
-    for (int j = 0; j < positions.columns; ++j) {
-      const auto pixel = project_(positions.at(i, j));
-      if (pixel && std::isfinite(pixel->x) && std::isfinite(pixel->y)) row[std::size_t(j)] = {*pixel, true};
-    }
+    row.resize(std::size_t(positions.columns));
+    for (int j = 0; j < positions.columns; ++j) row[std::size_t(j)] = look(positions.at(i, j));
   }
 
   /// The way that crosses the spring between a and b; null: none does.
@@ -268,6 +272,13 @@ std::vector<SpringSite> springs_across(const PositionView& positions, const Tear
         if (stroke_set.hidden(*stroke, a, b, positions.at(i, j), positions.at(i + d.di, j + d.dj))) continue;
         met.push_back({direction, i, j});
       }
+  }
+  const auto place = [&](int particle) { return positions.at(particle / positions.columns, particle % positions.columns); };
+  for (const LooseSpring& spring : loose_springs(tears, 0, stretch_directions)) {
+    const glm::dvec3 x_a = place(spring.a), x_b = place(spring.b);
+    const Seen a = stroke_set.look(x_a), b = stroke_set.look(x_b);
+    const Stroke* stroke = stroke_set.across(a, b);
+    if (stroke != nullptr && !stroke_set.hidden(*stroke, a, b, x_a, x_b)) met.push_back(spring.spring);
   }
   return met;
 }

@@ -36,7 +36,30 @@ glm::vec3 position(const RowPointers& r, int j) {
   return {r.x[j], r.y[j], r.z[j]};
 }
 
+/// In a cloth that has parted: of the triangles in the cells that hang on the particle.
+glm::vec3 normal_from_cells(const FloatRows& p, const Mesh& mesh, int particle) {
+  const int columns = mesh.sites().columns, site = mesh.site(particle);
+  glm::vec3 sum(0);
+  for (int cell = 0; cell < Mesh::cells_round; ++cell) {
+    if ((mesh.cells_of(particle) >> cell & 1) == 0) continue;
+    const Corner offset = offset_of_cell(cell);
+    const int qi = site / columns + offset.di, qj = site % columns + offset.dj;
+    for (const auto& corners : quad_triangles[std::size_t((qi + qj) & 1)]) {
+      glm::vec3 x[3];
+      bool mine = false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int corner = mesh.corner(qi, qj, corners[k]);
+        mine |= corner == particle;
+        x[k] = position(row(p, corner / columns), corner % columns);
+      }
+      if (mine) sum += glm::cross(x[1] - x[0], x[2] - x[0]);
+    }
+  }
+  return glm::dot(sum, sum) > 0 ? sum : glm::vec3(0, 0, 1);
+}
+
 glm::vec3 normal_from_triangles(const FloatRows& p, const Tears& tears, int i, int j) {
+  if (tears.mesh() != nullptr) return normal_from_cells(p, *tears.mesh(), i * p.columns + j);
   const std::uint32_t whole = whole_triangles({p.rows, p.columns}, tears, i, j);
   glm::vec3 sum(0);
   for (int t = 0; t < triangles_round; ++t) {
@@ -102,10 +125,11 @@ Bounds finite_bounds(const FloatRows& p) {
     };
     for (int i = 0; i < p.rows; ++i) {
       const float* row = p.row(i, c);
+      const int columns = std::min(p.columns, p.rows * p.columns - p.absent - i * p.columns);
       int j = 0;
-      for (; j + lanes <= p.columns; j += lanes)
+      for (; j + lanes <= columns; j += lanes)
         for (int lane = 0; lane < lanes; ++lane) take(row[j + lane], lane);
-      for (; j < p.columns; ++j) take(row[j], 0);
+      for (; j < columns; ++j) take(row[j], 0);
     }
     box.lo[c] = *std::min_element(lo, lo + lanes), box.hi[c] = *std::max_element(hi, hi + lanes);
   }

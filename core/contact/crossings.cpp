@@ -36,7 +36,7 @@ MatchedPair matched(const std::array<std::size_t, 3>& a, const std::array<std::s
 class CrossingSearch {
  public:
   CrossingSearch(const VectorField<double>& x, const Tears& tears, const CrossingLimits& limits)
-      : x_(x), tears_(tears), lattice_(tears.lattice()), limits_(limits), pyramid_(x, lattice_) {}
+      : x_(x), tears_(tears), lattice_(tears.lattice().sites()), limits_(limits), pyramid_(x, tears) {}
 
   Crossings all() {
     within(pyramid_.top());
@@ -102,18 +102,31 @@ class CrossingSearch {
     found_.listed.push_back({std::min(first, second), std::max(first, second)});
   }
 
-  bool whole(const QuadBlock& quad, int which) const { return tears_.triangle_whole(quad.row, quad.column, which); }
+  bool whole(const QuadBlock& quad, int which) const {
+    return tears_.mesh() != nullptr || tears_.triangle_whole(quad.row, quad.column, which);
+  }
 
   Placed placed(const QuadBlock& quad, int which) const {
     Placed placed{{quad.row, quad.column, which}, {}, no_box()};
     const auto& corners = quad_triangles[std::size_t((quad.row + quad.column) & 1)][std::size_t(which)];
     for (std::size_t n = 0; n < 3; ++n) {
-      placed.corners[n] = std::size_t(quad.row + corners[n].di) * lattice_.columns + (quad.column + corners[n].dj);
+      placed.corners[n] = particle_at(quad, corners[n]);
       placed.box.include(position(placed.corners[n]));
     }
     return placed;
   }
 
+  /// Copies that have not moved apart yet are one particle: cells that hang on them touch there as before.
+  std::size_t particle_at(const QuadBlock& quad, Corner at) const {
+    const int site = (quad.row + at.di) * lattice_.columns + quad.column + at.dj;
+    if (tears_.mesh() == nullptr || !tears_.mesh()->parted(site)) return std::size_t(site);
+    std::size_t particle = std::size_t(tears_.mesh()->corner(quad.row, quad.column, at));
+    for (int cell = 0; cell < Mesh::cells_round; ++cell) {
+      const std::size_t other = std::size_t(tears_.mesh()->holder(site, cell));
+      if (other < particle && position(other) == position(particle)) particle = other;
+    }
+    return particle;
+  }
   glm::dvec3 position(std::size_t p) const { return {x_.x[p], x_.y[p], x_.z[p]}; }
   Triangle triangle(const std::array<std::size_t, 3>& p) const {
     return {position(p[0]), position(p[1]), position(p[2])};
@@ -131,7 +144,7 @@ class CrossingSearch {
 }  // namespace
 
 Crossings count_crossings(const VectorField<double>& x, const Tears& tears, const CrossingLimits& limits) {
-  if (tears.lattice().rows < 2 || tears.lattice().columns < 2 || !all_finite(x)) return {};
+  if (tears.lattice().sites().rows < 2 || tears.lattice().columns < 2 || !all_finite(x)) return {};
   return CrossingSearch(x, tears, limits).all();
 }
 

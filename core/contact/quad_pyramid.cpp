@@ -68,29 +68,32 @@ bool BoundingBox::meets(const BoundingBox& other) const {
   return true;
 }
 
-QuadPyramid::QuadPyramid(const VectorField<double>& x, const Lattice& lattice) {
+QuadPyramid::QuadPyramid(const VectorField<double>& x, const Tears& tears) {
+  const Lattice lattice = tears.lattice().sites();
   assert(lattice.rows >= 2 && lattice.columns >= 2);
-  add_quads(x, lattice);
+  add_quads(x, lattice, tears.mesh());
   do {
     add_level();
-    if (levels_.size() == 2) add_edges(x, lattice);
+    if (levels_.size() == 2) add_edges(x, lattice, tears.mesh());
   } while (levels_.back().boxes.size() > 1);
 }
 
-void QuadPyramid::add_quads(const VectorField<double>& x, const Lattice& lattice) {
+void QuadPyramid::add_quads(const VectorField<double>& x, const Lattice& lattice, const Mesh* mesh) {
   Level quads{lattice.rows - 1, lattice.columns - 1, {}, {}};
   quads.boxes.reserve(std::size_t(quads.rows) * quads.columns);
   for (int i = 0; i < quads.rows; ++i)
     for (int j = 0; j < quads.columns; ++j) {
-      const std::size_t p = std::size_t(i) * lattice.columns + j, below = p + lattice.columns;
       BoundingBox& box = quads.boxes.emplace_back(no_box());
-      for (const std::size_t corner : {p, p + 1, below, below + 1}) box.include(position_in(x, corner));
+      for (const Corner at : {Corner{0, 0}, Corner{0, 1}, Corner{1, 0}, Corner{1, 1}}) {
+        const int corner = mesh != nullptr ? mesh->corner(i, j, at) : (i + at.di) * lattice.columns + j + at.dj;
+        box.include(position_in(x, std::size_t(corner)));
+      }
     }
   levels_.push_back(std::move(quads));
 }
 
 /// Of the blocks of level 1. An edge between two blocks is one of both.
-void QuadPyramid::add_edges(const VectorField<double>& x, const Lattice& lattice) {
+void QuadPyramid::add_edges(const VectorField<double>& x, const Lattice& lattice, const Mesh* mesh) {
   Level& level = levels_[1];
   for (int row = 0; row < level.rows; ++row)
     for (int column = 0; column < level.columns; ++column) {
@@ -101,6 +104,9 @@ void QuadPyramid::add_edges(const VectorField<double>& x, const Lattice& lattice
         for (int j = 2 * column; j <= last_j; ++j) {
           const std::size_t p = std::size_t(i) * lattice.columns + j;
           const glm::dvec3 from = position_in(x, p);
+          // Where the cloth has parted, edges say nothing of the way from one cell to the next.
+          if (constexpr double inf = std::numeric_limits<double>::infinity(); mesh != nullptr && mesh->parted(int(p)))
+            edges.along_rows.include(glm::dvec3(inf)), edges.along_rows.include(glm::dvec3(-inf));
           if (j < last_j) edges.along_rows.include(position_in(x, p + 1) - from);
           if (i < last_i) edges.along_columns.include(position_in(x, p + lattice.columns) - from);
         }

@@ -33,7 +33,7 @@ struct QuadBlock {
 class QuadPyramid {
  public:
   /// `x`: dense and finite positions of at least 2 x 2 particles, m.
-  QuadPyramid(const VectorField<double>& x, const Lattice& lattice);
+  QuadPyramid(const VectorField<double>& x, const Tears& tears);
 
   QuadBlock top() const { return {int(levels_.size()) - 1, 0, 0}; }
   /// Of its particles.
@@ -63,8 +63,8 @@ class QuadPyramid {
   std::size_t index(const QuadBlock& block) const {
     return std::size_t(block.row) * levels_[block.level].columns + block.column;
   }
-  void add_quads(const VectorField<double>& x, const Lattice& lattice);
-  void add_edges(const VectorField<double>& x, const Lattice& lattice);
+  void add_quads(const VectorField<double>& x, const Lattice& lattice, const Mesh* mesh);
+  void add_edges(const VectorField<double>& x, const Lattice& lattice, const Mesh* mesh);
   void add_level();
 
   std::vector<Level> levels_;

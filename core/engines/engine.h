@@ -89,6 +89,7 @@ struct PositionView {
   int rows = 0, columns = 0, stride = 0;
   const float* f[3] = {nullptr, nullptr, nullptr};
   const double* d[3] = {nullptr, nullptr, nullptr};
+  int absent = 0;  ///< places at the end, in rows for copies (mesh.h), where there is no particle
   glm::dvec3 at(int i, int j) const {
     assert(i >= 0 && i < rows && j >= 0 && j < columns);
     assert((f[0] == nullptr) != (d[0] == nullptr));

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+
+#include "core/forces/parted.h"
 
 namespace tyglab {
 namespace {
@@ -96,6 +99,39 @@ void read_springs(ParticleField field, const Simulation& cloth, const DrawnSites
   }
 }
 
+/// The same of all particles of a cloth that has parted, spring by spring.
+void read_springs_of_parted(ParticleField field, const Simulation& cloth, std::vector<float>& values) {
+  const Preset& p = cloth.preset();
+  const Tears& tears = cloth.tears();
+  const Lattice& lattice = tears.lattice();
+  const PositionView view = cloth.positions();
+  std::fill(values.begin(), values.end(), 0.f);
+  std::vector<int> counts(values.size(), 0);
+  const auto place = [&](int n) { return view.at(n / lattice.columns, n % lattice.columns); };
+  const auto add = [&](int direction, int a, int b) {
+    const Direction& to = directions[std::size_t(direction)];
+    const double rest = to.rest * p.L, longer = glm::distance(place(a), place(b)) - rest;
+    for (const int n : {a, b}) {
+      float& value = values[std::size_t(n)];
+      if (field == ParticleField::tension)
+        value = std::max(value, float(spring_constant(p, to) * std::max(longer, 0.0)));
+      else
+        value += float(longer / rest), ++counts[std::size_t(n)];
+    }
+  };
+  for (int d = 0; d < stretch_directions; ++d)
+    for (int i = 0; i < lattice.rows; ++i)
+      for (int j = 0; j < lattice.columns; ++j) {
+        const Direction& to = directions[std::size_t(d)];
+        if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
+          add(d, i * lattice.columns + j, (i + to.di) * lattice.columns + j + to.dj);
+      }
+  for (const LooseSpring& spring : loose_springs(tears, 0, stretch_directions))
+    add(spring.spring.direction, spring.a, spring.b);
+  for (std::size_t n = 0; field == ParticleField::strain && n < values.size(); ++n)
+    values[n] /= float(std::max(counts[n], 1));
+}
+
 /// value(p) of each site's particle, by its index in a dense state.
 template <class Value>
 void read_each(const DrawnSites& sites, float* to, const Value& value) {
@@ -155,9 +191,11 @@ std::optional<ParticleField> field_called(std::string_view name) {
 void read_field(ParticleField field, Simulation& cloth, Simulation* reference, const DrawnSites& sites,
                 std::vector<float>& values) {
   values.resize(std::size_t(sites.rows()) * std::size_t(sites.columns()));
+  const bool parted = cloth.tears().mesh() != nullptr && sites.every == 1;
   switch (field) {
     case ParticleField::tension:
     case ParticleField::strain:
+      if (parted) return read_springs_of_parted(field, cloth, values);
       return cloth.positions().f[0] != nullptr ? read_springs<float>(field, cloth, sites, values.data())
                                                : read_springs<double>(field, cloth, sites, values.data());
     case ParticleField::speed: {
@@ -167,7 +205,9 @@ void read_field(ParticleField field, Simulation& cloth, Simulation* reference, c
     case ParticleField::kinetic: {
       const State& state = cloth.read();
       const double half = cloth.preset().m / 2;
-      return read_each(sites, values.data(), [&](std::size_t p) { return half * speed_squared(state, p); });
+      return read_each(sites, values.data(), [&](std::size_t p) {
+        return half * cloth.tears().share(int(p)) * speed_squared(state, p);
+      });
     }
     case ParticleField::distance:
       if (reference == nullptr || reference->lattice() != cloth.lattice())

@@ -82,7 +82,7 @@ void add_sides(const Mesh& mesh, const Force& force, const Stencil& stencil, con
   const auto count = std::count_if(shape.sides.begin(), shape.sides.end(), exists);
   for (const Side& side : shape.sides) {
     if (!exists(side)) continue;
-    LooseStencil loose{&force, &stencil, {}, 1.0 / double(count)};
+    LooseStencil loose{&force, &stencil, {}, 1.0 / double(count), {stencil.spring[0].direction, owner.di, owner.dj}};
     const bool holds = std::all_of(shape.sites.begin(), shape.sites.end(), [&](const Corner& site) {
       return particle_at(mesh, side, owner, site) >= 0;
     });
@@ -93,20 +93,15 @@ void add_sides(const Mesh& mesh, const Force& force, const Stencil& stencil, con
   }
 }
 
-}  // namespace
-
-std::vector<LooseStencil> loose_stencils(const Preset& preset, const Tears& tears) {
-  std::vector<LooseStencil> all;
-  if (tears.mesh() == nullptr) return all;
-  const Mesh& mesh = *tears.mesh();
+/// Those of one stencil of the table.
+void add_loose(const Mesh& mesh, const std::vector<int>& parted, const Force& force, const Stencil& stencil,
+               std::vector<LooseStencil>& all) {
   const Lattice& sites = mesh.sites();
-  const std::vector<int> parted = mesh.parted_sites();
-  for_each_stencil(preset, [&](const Force& force, const Stencil& stencil) {
-    assert(!stencil.alone);
-    if (stencil.points == 1) {  // what acts on a mass
-      for (const int site : parted) all.push_back({&force, &stencil, {site}, mesh.share(site)});
+  assert(!stencil.alone);
+  if (stencil.points == 1) {  // what acts on a mass
+      for (const int site : parted) all.push_back({&force, &stencil, {site}, mesh.share(site), {}});
       for (int copy = sites.size(); copy < mesh.particles(); ++copy)
-        all.push_back({&force, &stencil, {copy}, mesh.share(copy)});
+        all.push_back({&force, &stencil, {copy}, mesh.share(copy), {}});
       return;
     }
     const Shape shape = shape_of(stencil);
@@ -125,10 +120,40 @@ std::vector<LooseStencil> loose_stencils(const Preset& preset, const Tears& tear
       const bool inside = std::all_of(shape.sites.begin(), shape.sites.end(), [&](const Corner& site) {
         return sites.contains(at.di + site.di, at.dj + site.dj);
       });
-      if (inside) add_sides(mesh, force, stencil, shape, at, all);
-    }
+    if (inside) add_sides(mesh, force, stencil, shape, at, all);
+  }
+}
+
+}  // namespace
+
+std::vector<LooseStencil> loose_stencils(const Preset& preset, const Tears& tears) {
+  std::vector<LooseStencil> all;
+  if (tears.mesh() == nullptr) return all;
+  const std::vector<int> parted = tears.mesh()->parted_sites();
+  for_each_stencil(preset, [&](const Force& force, const Stencil& stencil) {
+    add_loose(*tears.mesh(), parted, force, stencil, all);
   });
   return all;
+}
+
+std::vector<LooseSpring> loose_springs(const Tears& tears, int first, int last) {
+  std::vector<LooseSpring> springs;
+  if (tears.mesh() == nullptr) return springs;
+  const std::vector<int> parted = tears.mesh()->parted_sites();
+  Preset bends;
+  bends.k_b = 1;
+  for (int direction = first; direction < last; ++direction) {
+    const bool bending = directions[std::size_t(direction)].bending;
+    const Force& force = bending ? force::bend : force::stretch;
+    const Stencil& stencil = force.stencils(bends)[std::size_t(direction - (bending ? stretch_directions : 0))];
+    std::vector<LooseStencil> all;
+    add_loose(*tears.mesh(), parted, force, stencil, all);
+    for (const LooseStencil& one : all) {
+      const bool again = !springs.empty() && springs.back().a == one.at[0] && springs.back().b == one.at[1];
+      if (!again) springs.push_back({{direction, one.spring.i, one.spring.j}, one.at[0], one.at[1]});
+    }
+  }
+  return springs;
 }
 
 namespace {

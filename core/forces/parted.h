@@ -21,10 +21,20 @@ struct LooseStencil {
   const Force* force;
   const Stencil* stencil;  ///< of the table: it lives as long as the program
   std::array<int, Stencil::most_points> at{};
-  double weight;  ///< of its energy and forces
+  double weight;      ///< of its energy and forces
+  SpringSite spring;  ///< of a spring: where it is in a cloth that has not parted
 };
 /// All that are not in their places of the lattice, in a fixed order; empty for a cloth that has not parted.
 std::vector<LooseStencil> loose_stencils(const Preset& preset, const Tears& tears);
+
+/// A spring of the lattice that joins other particles where the cloth has parted, or one half of it.
+struct LooseSpring {
+  SpringSite spring;
+  int a, b;  ///< particles
+};
+/// Those of the directions `first` to `last` (lattice.h), `last` not included. Two halves that join the same particles
+/// are one.
+std::vector<LooseSpring> loose_springs(const Tears& tears, int first, int last);
 
 /// What it does, by its weight; x_of(particle) and v_of(particle) say where its particles are.
 template <class X, class V>

@@ -385,8 +385,8 @@ class Reader {
     if (in("cloth")) known.insert(known.end(), {"pins", "pin_motions"});
     if (in("solver")) known.insert(known.end(), {"engine", "precision"});
     if (section.empty()) known.insert(known.end(), {"kind", "name", "description", "bodies"});
-    for (const PresetRow& row : notation())
-      if (in(row.section)) known.push_back(section.empty() ? row.key : row.key_in_section());
+    for (const PresetRow& one : notation())
+      if (in(one.section)) known.push_back(section.empty() ? one.key : one.key_in_section());
     unknown(node.line, path, name, known);
   }
 

@@ -10,22 +10,6 @@
 namespace tyglab {
 namespace {
 
-/// Calls visit(p0, p1, p2) for every whole triangle, corners counter-clockwise from the front.
-template <class Visit>
-void for_whole_triangles(const Tears& tears, Visit visit) {
-  const Lattice& lattice = tears.lattice();
-  for (int i = 0; i + 1 < lattice.rows; ++i)
-    for (int j = 0; j + 1 < lattice.columns; ++j)
-      for (int which = 0; which < 2; ++which) {
-        if (!tears.triangle_whole(i, j, which)) continue;
-        const auto& corners = quad_triangles[(i + j) & 1][which];
-        const auto index = [&](const Corner& corner) {
-          return std::size_t(i + corner.di) * lattice.columns + (j + corner.dj);
-        };
-        visit(index(corners[0]), index(corners[1]), index(corners[2]));
-      }
-}
-
 /// Whether a whole stretch spring is a thread of its own: no whole triangle has it as an edge or, of a diagonal that
 /// crosses its quad's other one, shares its quad.
 bool is_lone(const Tears& tears, int direction, int i, int j) {
@@ -54,7 +38,7 @@ bool is_lone(const Tears& tears, int direction, int i, int j) {
 template <class Visit>
 void for_lone_threads(const Tears& tears, Visit visit) {
   const Lattice& lattice = tears.lattice();
-  if (tears.untorn() && lattice.columns > 1) return;
+  if ((tears.untorn() || tears.mesh() != nullptr) && lattice.columns > 1) return;
   for (int i = 0; i < lattice.rows; ++i)
     for (int j = 0; j < lattice.columns; ++j)
       for (int d = 0; d < stretch_directions; ++d) {
@@ -84,12 +68,12 @@ std::string one_line(std::string text) {
 }  // namespace
 
 std::vector<glm::dvec3> vertex_normals(const Tears& tears, const VectorField<double>& x) {
-  std::vector<glm::dvec3> normals(tears.lattice().size(), glm::dvec3(0));
-  const auto at = [&](std::size_t p) { return glm::dvec3(x.x[p], x.y[p], x.z[p]); };
-  for_whole_triangles(tears, [&](std::size_t a, std::size_t b, std::size_t c) {
+  std::vector<glm::dvec3> normals(std::size_t(tears.particles()), glm::dvec3(0));
+  const auto at = [&](int p) { return glm::dvec3(x.x[std::size_t(p)], x.y[std::size_t(p)], x.z[std::size_t(p)]); };
+  for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
     // The cross product is along the normal and as long as twice the area: the weight comes by itself.
     const glm::dvec3 weighted = glm::cross(at(b) - at(a), at(c) - at(a));
-    for (const std::size_t p : {a, b, c}) normals[p] += weighted;
+    for (const int p : {a, b, c}) normals[std::size_t(p)] += weighted;
   });
   for (glm::dvec3& normal : normals) {
     const double length = std::hypot(normal.x, normal.y, normal.z);
@@ -99,7 +83,7 @@ std::vector<glm::dvec3> vertex_normals(const Tears& tears, const VectorField<dou
 }
 
 std::string obj_text(const Tears& tears, const VectorField<double>& x, const ObjFrame& frame) {
-  const Lattice& lattice = tears.lattice();
+  const Lattice sites = tears.lattice().sites();
   const bool in_sequence = frame.fps > 0;
   std::string text = "# Tyglab: " + one_line(frame.name) + "\n# ";
   if (in_sequence) text += "frame " + std::to_string(frame.frame) + ", ";
@@ -115,19 +99,20 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
   if (!frame.material.empty()) text += "mtllib " + frame.material + '\n';
   text += "o cloth\n";
 
-  for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) {
+  for (std::size_t p = 0; p < std::size_t(tears.particles()); ++p) {
     for (const double value : {x.x[p], x.y[p], x.z[p]}) float_coordinate(value);
     append_line(text, "v", {x.x[p], x.y[p], x.z[p]});
   }
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j)
-      append_line(text, "vt",
-                  {lattice.columns > 1 ? double(j) / (lattice.columns - 1) : 0.0, 1 - double(i) / (lattice.rows - 1)});
+  for (int p = 0; p < tears.particles(); ++p) {
+    const Pins::Site at = tears.site(p);
+    append_line(text, "vt",
+                {sites.columns > 1 ? double(at.j) / (sites.columns - 1) : 0.0, 1 - double(at.i) / (sites.rows - 1)});
+  }
   for (const glm::dvec3& n : vertex_normals(tears, x)) append_line(text, "vn", {n.x, n.y, n.z});
   if (!frame.material.empty()) text += "usemtl cloth\n";
-  for_whole_triangles(tears, [&](std::size_t a, std::size_t b, std::size_t c) {
+  for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
     text += 'f';
-    for (const std::size_t p : {a, b, c}) {
+    for (const int p : {a, b, c}) {
       const std::string number = std::to_string(p + 1);
       text += ' ' + number + '/' + number + '/' + number;
     }

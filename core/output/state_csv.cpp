@@ -10,29 +10,29 @@
 
 namespace tyglab {
 
-std::string state_csv(const Lattice& lattice, const State& state, const StateStamp& stamp) {
+std::string state_csv(const Tears& tears, const State& state, const StateStamp& stamp) {
   std::string text = "# tyglab state, t = ";
   append_number(text, stamp.t);
   text += ", steps = " + std::to_string(stamp.steps) + ", preset hash " + stamp.preset_hash + "\n";
   text += "i,j,x,y,z,vx,vy,vz\n";
   constexpr std::size_t characters_a_row = 150;  // six numbers of at most 24 characters, and the indices
-  text.reserve(text.size() + std::size_t(lattice.size()) * characters_a_row);
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) {
-      const std::size_t p = std::size_t(i) * lattice.columns + j;
-      text += std::to_string(i) + ',' + std::to_string(j);
-      for (const VectorField<double>* field : {&state.x, &state.v})
-        for (const double value : {field->x[p], field->y[p], field->z[p]}) {
-          text += ',';
-          append_number(text, value);
-        }
-      text += '\n';
-    }
+  text.reserve(text.size() + std::size_t(tears.particles()) * characters_a_row);
+  for (int n = 0; n < tears.particles(); ++n) {
+    const Pins::Site site = tears.site(n);
+    const auto p = std::size_t(n);
+    text += std::to_string(site.i) + ',' + std::to_string(site.j);
+    for (const VectorField<double>* field : {&state.x, &state.v})
+      for (const double value : {field->x[p], field->y[p], field->z[p]}) {
+        text += ',';
+        append_number(text, value);
+      }
+    text += '\n';
+  }
   return text;
 }
 
 std::string state_csv(Simulation& simulation) {
-  return state_csv(simulation.lattice(), simulation.read_raw(),
+  return state_csv(simulation.tears(), simulation.read_raw(),
                    {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
 }
 
@@ -49,16 +49,15 @@ std::string values_csv(Simulation& cloth, Simulation* reference) {
     read_field(field.field, cloth, reference, {cloth.lattice(), 1}, columns.emplace_back());
   }
   text += '\n';
-  const Lattice& lattice = cloth.lattice();
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) {
-      text += std::to_string(i) + ',' + std::to_string(j);
-      for (const auto& column : columns) {
-        text += ',';
-        append_number(text, double(column[std::size_t(i) * std::size_t(lattice.columns) + std::size_t(j)]));
-      }
-      text += '\n';
+  for (int n = 0; n < cloth.tears().particles(); ++n) {
+    const Pins::Site site = cloth.tears().site(n);
+    text += std::to_string(site.i) + ',' + std::to_string(site.j);
+    for (const auto& column : columns) {
+      text += ',';
+      append_number(text, double(column[std::size_t(n)]));
     }
+    text += '\n';
+  }
   return text;
 }
 

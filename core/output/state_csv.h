@@ -21,7 +21,7 @@ struct StateStamp {
 
 /// The text of a state file: a comment with the stamp, `i,j,x,y,z,vx,vy,vz`, and a row per particle with 17 significant
 /// digits, in m and m/s. `state` holds the velocities as the method holds them (Simulation::read_raw).
-std::string state_csv(const Lattice& lattice, const State& state, const StateStamp& stamp);
+std::string state_csv(const Tears& tears, const State& state, const StateStamp& stamp);
 
 /// The same of what a simulation holds now.
 std::string state_csv(Simulation& simulation);

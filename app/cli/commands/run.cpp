@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -94,7 +95,7 @@ class Outputs {
     if (!options_.ledger.empty())
       ledger_ = std::make_unique<SeriesCsv>(options_.ledger, ledger_columns(), preset_hash(preset));
     if (options_.material) write_material(preset);
-    if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().size());
+    if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().sites().size());
   }
 
   /// The next step at which something is to be written.
@@ -298,6 +299,17 @@ Json crossings_json(const std::optional<Crossings>& crossings) {
   return crossings && crossings->complete ? Json(crossings->pairs) : Json();
 }
 
+/// Of all whole triangles, m².
+double cloth_area(Simulation& simulation) {
+  const VectorField<double>& x = simulation.read().x;
+  const auto at = [&](int n) { return glm::dvec3(x.x[std::size_t(n)], x.y[std::size_t(n)], x.z[std::size_t(n)]); };
+  double area = 0;
+  for_each_triangle(simulation.tears(), [&](int a, int b, int c, int, int, int) {
+    area += glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
+  });
+  return area;
+}
+
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
              double ns_per_particle_step, const EndFindings& end, Json files) {
@@ -311,7 +323,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"threads", simulation.engine().threads()},
           {"precision", name_of(preset.precision)},
           {"integrator", preset.integrator},
-          {"rows", simulation.lattice().rows},
+          {"rows", simulation.lattice().sites().rows},
           {"columns", simulation.lattice().columns},
           {"dt", preset.dt},
           {"steps", simulation.steps()},
@@ -325,6 +337,8 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"tolerance_choice", choice_json(scene.choice.get())},
           {"engine_choice", engine_choice_json(scene.engine_choice.get())},
           {"torn", simulation.tears().torn_count()},
+          {"particles", simulation.tears().particles()},
+          {"area", finite_json(cloth_area(simulation))},
           {"left_inside", simulation.left_inside()},
           {"held_back", simulation.engine().held_back()},
           {"energy", energy_json(simulation)},
