@@ -26,9 +26,9 @@ State Simulation::read_raw() {
   return state;
 }
 
-/// Forces between particles that are near in space, at the present positions.
+/// Forces that no stencil of the lattice tells (readout.h), at the present positions.
 ForcesAmong Simulation::forces_among_stored() const {
-  if (!force::self.on(acting())) return {};
+  if (!force::self.on(acting()) && tears_.mesh() == nullptr) return {};
   State all;
   all.x.resize(std::size_t(lattice_.size())), all.v.resize(std::size_t(lattice_.size()));
   for (int i = 0; i < lattice_.rows; ++i)
@@ -47,7 +47,8 @@ glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const ForcesAmong& 
   if (stored.lag == 0 || pinned(i, j) || held_.particle == i * lattice_.columns + j) return stored.v;
   ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
   among.add_to(forces, std::size_t(i) * lattice_.columns + std::size_t(j));
-  return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
+  const double m = preset_.m * tears_.share(i * lattice_.columns + j);
+  return stored.v + stored.lag / m * (forces.F_int() + forces.F_ext());
 }
 
 ParticleReadout Simulation::particle(int i, int j) const {
@@ -75,7 +76,7 @@ ParticleReadout Simulation::particle(int i, int j) const {
   // What holds a particle (pin or hand) tolerates the rest of its force; the hand's belongs to F_ext.
   if (out.held) out.forces.give_hand(-out["F"]);
   out.x = now.x(i, j), out.v = now.v(i, j);
-  out.a = out.pinned ? glm::dvec3(0) : out["F"] / preset_.m;
+  out.a = out.pinned ? glm::dvec3(0) : out["F"] / (preset_.m * tears_.share(int(p)));
   out.on_body = !out.pinned && !out.held &&
                 held_by_contact(placed_bodies(acting().bodies, time(), preset_.dt, rounding_unit(preset_.precision)),
                                 preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);

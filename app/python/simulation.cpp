@@ -131,14 +131,14 @@ class Motion {
   /// Arrays that somebody still has show the present; those of a cloth with other rows or columns stay as they were.
   void follow() {
     if (!values_) return;
-    if (values_.use_count() == 1 || values_->x.size() != 3 * std::size_t(simulation_->lattice().size()))
+    if (values_.use_count() == 1 || values_->x.size() != 3 * std::size_t(simulation_->lattice().sites().size()))
       values_.reset();
     else
       fill();
   }
   void fill() {
     const State& state = simulation_->read();
-    for (std::size_t p = 0; p < state.x.x.size(); ++p) {
+    for (std::size_t p = 0; 3 * p < values_->x.size(); ++p) {
       double* x = &values_->x[3 * p];
       double* v = &values_->v[3 * p];
       x[0] = state.x.x[p], x[1] = state.x.y[p], x[2] = state.x.z[p];
@@ -146,7 +146,7 @@ class Motion {
     }
   }
   py::array array_of(std::vector<double> Values::*field) {
-    const Lattice& lattice = at_rest().lattice();
+    const Lattice lattice = at_rest().lattice().sites();
     if (!values_) {
       auto fresh = std::make_shared<Values>();
       fresh->x.resize(3 * lattice.size()), fresh->v.resize(3 * lattice.size());
@@ -161,7 +161,7 @@ class Motion {
   }
   void take(const py::array_t<double, py::array::c_style | py::array::forcecast>& from, const char* what,
             VectorField<double>& to) const {
-    const Lattice& lattice = at_rest().lattice();
+    const Lattice lattice = at_rest().lattice().sites();
     if (from.ndim() != 3 || from.shape(0) != lattice.rows || from.shape(1) != lattice.columns || from.shape(2) != 3)
       throw py::value_error(std::string(what) + " must have the shape (" + std::to_string(lattice.rows) + ", " +
                             std::to_string(lattice.columns) + ", 3)");
@@ -179,6 +179,20 @@ class Motion {
 
 py::str key_of(std::string_view name) {
   return {name.data(), name.size()};
+}
+
+py::list copies(Motion& motion) {
+  const Tears& tears = motion.at_rest().tears();
+  const State& state = motion.at_rest().read();
+  py::list all;
+  for (int n = tears.lattice().sites().size(); n < tears.particles(); ++n) {
+    const Pins::Site site = tears.site(n);
+    const auto at = [&](const VectorField<double>& f) {
+      return py::make_tuple(f.x[std::size_t(n)], f.y[std::size_t(n)], f.z[std::size_t(n)]);
+    };
+    all.append(py::make_tuple(py::make_tuple(site.i, site.j), at(state.x), at(state.v)));
+  }
+  return all;
 }
 
 py::dict energy(Motion& motion) {
@@ -378,7 +392,10 @@ void add_simulation(py::module_& module) {
                              "computation takes about half a minute for 400 x 400 particles; Ctrl-C ends it.")
       .def_property_readonly(
           "torn", [](const Motion& m) { return m.at_rest().tears().torn_count(); },
-          "Stretch springs that are torn or cut.");
+          "Stretch springs that are torn or cut; where the cloth parts, particles that did.")
+      .def_property_readonly("copies", &copies,
+                             "Particles that a parted cloth has beside those of its sites, in the order of their "
+                             "origin: (i, j) of the site, position (m), velocity (m/s).");
   motion.def("grab", &grab, py::arg("i"), py::arg("j"), "The hand grabs the particle (i, j), which must not be pinned.")
       .def("move_hand", &move_hand, py::arg("to"), py::arg("steps") = 1,
            "The hand moves to the position `to` (m), evenly over the next steps.")

@@ -56,7 +56,8 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   }
   glBindVertexArray(array_.id());
   const bool needs_normals = options.lit() && (moved || !normals_ready_);
-  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0], view.absent};
+  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0],
+             scene.lattice.size() - scene.tears.particles()};
   if (scene.writer)
     have_written(scene, moved, needs_normals, work);
   else

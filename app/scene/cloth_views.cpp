@@ -63,7 +63,7 @@ bool ClothViews::take_ghosts(Scene& scene, glm::ivec2 size) {
       if (cloth.divergence()) continue;
       ViewOptions view = view_of(scene, cloth, size);
       view.mode = outlines;
-      view.every = std::max(view.every, std::max(cloth.lattice().rows, cloth.lattice().columns) / ghost_lines);
+      view.every = std::max(view.every, std::max(cloth.lattice().sites().rows, cloth.lattice().columns) / ghost_lines);
       ClothRenderer& its = renderer(scene, n + 1);
       its.update(cloth, view);
       count(scene.session.costs, its.take_work());

@@ -290,7 +290,7 @@ SceneSketch projected(const Simulation& simulation, const Grid& grid) {
 }
 
 Grid read_grid(const Simulation& simulation) {
-  const Lattice& lattice = simulation.lattice();
+  const Lattice lattice = simulation.lattice().sites();
   const PositionView x = simulation.positions();
   Grid grid{drawn_along(lattice.rows), drawn_along(lattice.columns), {}};
   for (const int i : grid.rows)

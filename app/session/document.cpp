@@ -22,7 +22,7 @@ Preset on_cpu(Preset preset) {
 
 /// The middle of the cloth, so that there is something to read at once.
 std::optional<Pins::Site> first_pick(const Session& session) {
-  const Lattice& lattice = session.simulation->lattice();
+  const Lattice lattice = session.simulation->lattice().sites();
   return Pins::Site{lattice.rows / 2, lattice.columns / 2};
 }
 

@@ -213,10 +213,17 @@ std::string state_in_words(const Session& session) {
   return words + ": paused at t = " + short_number(session.simulation->time()) + " s";
 }
 
+std::string tears_in_words(const Tears& tears) {
+  const int torn = tears.torn_count();
+  const std::string count = grouped(torn);
+  if (tears.mesh() != nullptr) return count + (torn == 1 ? " particle" : " particles") + " parted";
+  return count + (torn == 1 ? " spring" : " springs") + " torn or cut";
+}
+
 std::string time_in_words(const Session& session) {
-  const int torn = session.simulation->tears().torn_count();
+  const Tears& tears = session.simulation->tears();
   return "t = " + time_number(clock_time(session), session.preset().dt) + " s" +
-         (torn > 0 ? ", " + std::to_string(torn) + " springs torn or cut" : "");
+         (tears.untorn() ? "" : ", " + tears_in_words(tears));
 }
 
 }  // namespace tyglab

@@ -38,6 +38,8 @@ double clock_time(const Session& session);
 
 /// For screen readers: the scene, the method, the lab's step, and whether the motion runs, which change seldom.
 std::string state_in_words(const Session& session);
+/// "3 springs torn or cut", "3 particles parted".
+std::string tears_in_words(const Tears& tears);
 std::string time_in_words(const Session& session);
 
 }  // namespace tyglab

@@ -117,15 +117,15 @@ Known fastest_particle(Session& session) {
 }
 Known mean_height(Session& session) {
   const Array<double>& y = session.simulation->read().x.y;
-  assert(!y.empty());
+  const Tears& tears = session.simulation->tears();
   double sum = 0;
-  for (const double value : y) sum += value;
-  return sum / double(y.size());
+  for (int n = 0; n < tears.particles(); ++n) sum += tears.share(n) * y[std::size_t(n)];
+  return sum / double(tears.lattice().sites().size());
 }
 Known lowest_height(Session& session) {
   const Array<double>& y = session.simulation->read().x.y;
   assert(!y.empty());
-  return *std::min_element(y.begin(), y.end());
+  return *std::min_element(y.begin(), y.begin() + session.simulation->tears().particles());
 }
 
 /// Root of the mean square of the particles' ways from where they were when the step before was completed.
@@ -139,7 +139,7 @@ Known distance_to_before(Session& session) {
 }
 
 Known pinned_particles(Session& session) {
-  const Lattice& lattice = session.simulation->lattice();
+  const Lattice lattice = session.simulation->lattice().sites();
   int count = 0;
   for (int i = 0; i < lattice.rows; ++i)
     for (int j = 0; j < lattice.columns; ++j) count += session.simulation->pinned(i, j);
@@ -354,7 +354,7 @@ const std::array rows_but_forces{
     Observable{.name = "mean_y", .unit = "m", .meaning = "Mean height of the particles.", .number = mean_height},
     Observable{.name = "lowest_y", .unit = "m", .meaning = "Height of the lowest particle.", .number = lowest_height},
     Observable{.name = "torn",
-               .meaning = "Stretch springs that are torn or cut.",
+               .meaning = "Stretch springs that are torn or cut; where the cloth parts, particles that did.",
                .place = "bottom bar",
                .number = [](Session& session) -> Known { return double(session.simulation->tears().torn_count()); }},
     Observable{.name = "pinned", .meaning = "Pinned particles.", .number = pinned_particles},

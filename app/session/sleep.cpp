@@ -24,7 +24,7 @@ bool may_sleep(const Simulation& simulation) {
 
 /// Where particles are that tell that a cloth moves: its lower corner and, in case that is pinned, two others.
 std::array<glm::dvec3, 3> scouts(const Simulation& simulation) {
-  const Lattice& lattice = simulation.lattice();
+  const Lattice lattice = simulation.lattice().sites();
   return {simulation.position(lattice.rows - 1, lattice.columns - 1),
           simulation.position(lattice.rows / 2, lattice.columns / 2), simulation.position(lattice.rows - 1, 0)};
 }

@@ -48,17 +48,19 @@ std::vector<SeriesColumn> series_columns(Kind kind) {
 std::vector<double> series_values(Simulation& simulation) {
   const State& state = simulation.read();
   const Preset& preset = simulation.preset();
+  const Tears& tears = simulation.tears();
+  const auto particles = std::size_t(tears.particles());
   double squares = 0;
   for (const auto* v : {&state.v.x, &state.v.y, &state.v.z})
-    for (const double component : *v) squares += component * component;
+    for (std::size_t n = 0; n < particles; ++n) squares += tears.share(int(n)) * (*v)[n] * (*v)[n];
   const double E_kin = 0.5 * preset.m * squares;
 
   const Array<double>& y = state.x.y;
   if (preset.kind == Kind::one_weight) return {y[0], state.v.y[0], E_kin};
   double sum = 0;
-  for (const double height : y) sum += height;
-  const auto [lowest, highest] = std::minmax_element(y.begin(), y.end());
-  const double mean = sum / double(y.size()), y_min = *lowest, y_max = *highest;
+  for (std::size_t n = 0; n < particles; ++n) sum += tears.share(int(n)) * y[n];
+  const auto [lowest, highest] = std::minmax_element(y.begin(), y.begin() + std::ptrdiff_t(particles));
+  const double mean = sum / double(tears.lattice().sites().size()), y_min = *lowest, y_max = *highest;
   const ForceSummary total = simulation.forces(Reduction::sum), most = simulation.forces(Reduction::maximum);
   return {E_kin,
           mean,

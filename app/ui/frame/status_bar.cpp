@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/ui/frame/panels.h"
+#include "app/session/motion.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/theory/advice.h"
@@ -68,11 +69,10 @@ std::vector<std::string> facts_of(const Ui& ui) {
   const auto size = [](const Lattice& l) { return std::to_string(l.rows) + " × " + std::to_string(l.columns); };
   if (const auto next = ui.session.rebuild.lattice()) return {"Building " + size(*next) + " …"};
   if (ui.session.preset().kind != Kind::cloth) return {"mass on a spring"};
-  std::vector<std::string> facts{size(ui.session.simulation->lattice()) + " particles"};
+  std::vector<std::string> facts{size(ui.session.simulation->lattice().sites()) + " particles"};
   const std::string every = std::to_string(ui.scene.view.every);
   if (ui.scene.view.every > 1) facts.front() += ", one particle in " + every + " × " + every + " drawn";
-  if (const int torn = ui.session.simulation->tears().torn_count(); torn > 0)
-    facts.push_back(std::to_string(torn) + (torn == 1 ? " spring" : " springs") + " torn or cut");
+  if (!ui.session.simulation->tears().untorn()) facts.push_back(tears_in_words(ui.session.simulation->tears()));
   if (const SolveCounts solves = ui.session.simulation->engine().solves(); solves.unconverged > 0)
     facts.push_back(unsolved(solves, ui.session.simulation->steps(), ui.session.preset()));
   if (ui.session.asleep()) facts.emplace_back("at rest: wakes when touched");

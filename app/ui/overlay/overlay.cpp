@@ -65,7 +65,7 @@ namespace {
 
 /// Whether the cell below and right of a particle is drawn whole.
 bool cell_drawn(const Simulation& cloth, int i, int j, double longest) {
-  if (!cloth.lattice().contains(i, j) || !cloth.lattice().contains(i + 1, j + 1)) return false;
+  if (!cloth.lattice().has_site(i, j) || !cloth.lattice().has_site(i + 1, j + 1)) return false;
   const PositionView x = cloth.positions();
   const auto edge = [&](int a, int b, int c, int d) { return glm::distance(x.at(a, b), x.at(c, d)) <= longest; };
   return edge(i, j, i, j + 1) && edge(i, j, i + 1, j) && edge(i + 1, j, i + 1, j + 1) && edge(i, j + 1, i + 1, j + 1);
