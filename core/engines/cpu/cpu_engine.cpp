@@ -533,7 +533,8 @@ std::size_t CpuEngine<R, Present>::bytes() const {
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
-  total += loose_.stencils.capacity() * sizeof(LooseStencil) + loose_.force.bytes();
+  total += loose_.springs.capacity() * sizeof(typename Loose::Spring) +
+           loose_.others.capacity() * sizeof(LooseStencil) + loose_.force.bytes();
   if (self_ == nullptr) return total;
   for (const auto* list : {&self_->before, &self_->x, &self_->v, &self_->F})
     total += list->capacity() * sizeof(glm::dvec3);

@@ -224,6 +224,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   // Where the cloth has parted (cpu_loose.cpp).
   void follow_loose(const Tears& tears);
   void find_given_force(const ResolvedSweep& sweep);
+  void add_loose_springs();
   double loose_slack(const Tears& tears) const;
   double share_held() const;
   // Contact of the cloth with itself, on one thread (cpu_self.cpp).
@@ -291,8 +292,17 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::unique_ptr<Self> self_;
   /// Loose stencils of a cloth that has parted, and the particles that they act on, by whose place here they name them.
   struct Loose {
-    std::vector<LooseStencil> stencils;
+    /// F_s or F_b, and F_d, of a spring, with all halves that join its particles.
+    struct Spring {
+      int a, b;
+      int direction;  ///< of the lattice
+      double sign;                      ///< 1 pulls, -1 pushes
+      double rest = 0, k = 0, k_d = 0;  ///< m, N/m, N s/m
+    };
+    std::vector<Spring> springs;
+    std::vector<LooseStencil> others;
     std::vector<int> particles;
+    std::vector<std::ptrdiff_t> places;  ///< in the rows of a field
     std::vector<double> per_share;
     std::vector<glm::dvec3> x, v, F;
     Field force;

@@ -2,6 +2,11 @@
 // before it one thread adds what loose stencils do, in double, to the force that rows begin with. The sweep divides it
 // by m, and a particle with a share of that mass is given that much more.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
 
 #include "core/engines/cpu/cpu_engine.h"
 
@@ -11,24 +16,61 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::follow_loose(const Tears& tears) {
   Loose& loose = loose_;
   if (loose.known_torn == tears.torn_count()) return;
-  loose.stencils = loose_stencils(cloth_.preset, tears);
+  std::vector<LooseStencil> all = loose_stencils(cloth_.preset, tears);
   // Weight acts on all particles alike.
-  std::erase_if(loose.stencils, [](const LooseStencil& one) { return one.stencil->points == 1; });
+  std::erase_if(all, [](const LooseStencil& one) { return one.stencil->points == 1; });
   std::vector<int>& particles = loose.particles;
   particles.clear();
-  for (const LooseStencil& one : loose.stencils)
+  for (const LooseStencil& one : all)
     particles.insert(particles.end(), one.at.begin(), one.at.begin() + one.stencil->points);
   std::sort(particles.begin(), particles.end());
   particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
-  for (LooseStencil& one : loose.stencils)
+  loose.others.clear(), loose.springs.clear();
+  std::map<std::array<int, 3>, typename Loose::Spring> springs;  // by ends and direction
+  const Preset& p = cloth_.preset;
+  for (LooseStencil& one : all) {
     for (std::size_t n = 0; n < std::size_t(one.stencil->points); ++n)
       one.at[n] = int(std::lower_bound(particles.begin(), particles.end(), one.at[n]) - particles.begin());
-  loose.per_share.clear();
-  for (const int particle : particles) loose.per_share.push_back(1 / tears.share(particle));
+    const bool bends = one.force == &force::bend, damps = one.force == &force::damping;
+    if (!bends && !damps && one.force != &force::stretch) {
+      loose.others.push_back(one);
+      continue;
+    }
+    const int direction = one.spring.direction + (bends ? stretch_directions : 0);
+    auto& spring = springs.try_emplace({one.at[0], one.at[1], direction}).first->second;
+    spring.a = one.at[0], spring.b = one.at[1], spring.direction = direction, spring.sign = bends ? -1 : 1, spring.rest = one.stencil->rest * p.L;
+    (damps ? spring.k_d : spring.k) += one.weight * (damps ? p.k_d : one.force->stiffness(p, *one.stencil));
+  }
+  for (const auto& [key, spring] : springs) loose.springs.push_back(spring);
+  loose.per_share.clear(), loose.places.clear();
+  for (const int particle : particles) {
+    loose.per_share.push_back(1 / tears.share(particle));
+    loose.places.push_back(particle / cloth_.lattice.columns * cloth_.vector(vector_x).pitch() +
+                           particle % cloth_.lattice.columns);
+  }
   for (auto* vectors : {&loose.x, &loose.v, &loose.F}) vectors->resize(particles.size());
   loose.force = Field();
+  cloth_.near_rows.assign(particles.empty() ? 0 : std::size_t(cloth_.lattice.rows), 0);
   if (!particles.empty()) loose.force.resize(array_rows(), cloth_.stride);
+  for (const int particle : particles) cloth_.near_rows[std::size_t(particle / cloth_.lattice.columns)] = 1;
   loose.known_torn = tears.torn_count();
+}
+
+/// What loose springs do to the particles that they join, N.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::add_loose_springs() {
+  constexpr double shortest = 1e-9;  // of its rest length, under which a spring has no direction
+  Loose& loose = loose_;
+  for (const auto& spring : loose.springs) {
+    const auto a = std::size_t(spring.a), b = std::size_t(spring.b);
+    const glm::dvec3 d = loose.x[b] - loose.x[a];
+    const double length = std::sqrt(glm::dot(d, d)), longer = spring.sign * (length - spring.rest);
+    // Which springs act changes from step to step, so there is no branch to guess.
+    const double acts = spring.k * spring.sign * double(length > shortest * spring.rest);
+    const double factor = acts * std::max(longer, 0.0) / std::max(length, shortest * spring.rest);
+    const glm::dvec3 F = factor * d + spring.k_d * (loose.v[b] - loose.v[a]);
+    loose.F[a] += F, loose.F[b] -= F;
+  }
 }
 
 /// Before a sweep: the forces that it adds to those it computes.
@@ -37,25 +79,25 @@ void CpuEngine<R, Present>::find_given_force(const ResolvedSweep& sweep) {
   find_near_force(sweep);
   Loose& loose = loose_;
   if (loose.particles.empty()) return;
-  const int columns = cloth_.lattice.columns;
-  const Field &x = cloth_.vector(sweep.position), &v = cloth_.vector(sweep.velocity);
+  const std::ptrdiff_t component = cloth_.stride;
+  const R *x = cloth_.vector(sweep.position).row(0), *v = cloth_.vector(sweep.velocity).row(0);
   for (std::size_t n = 0; n < loose.particles.size(); ++n) {
-    const int i = loose.particles[n] / columns, j = loose.particles[n] % columns;
-    for (int c = 0; c < 3; ++c) {
-      loose.x[n][c] = double(x.row(i, c)[j]), loose.v[n][c] = sweep.per_velocity * double(v.row(i, c)[j]);
-    }
+    const R *at = x + loose.places[n], *moving = v + loose.places[n];
+    loose.x[n] = {at[0], at[component], at[2 * component]};
+    loose.v[n] = sweep.per_velocity * glm::dvec3(moving[0], moving[component], moving[2 * component]);
     loose.F[n] = glm::dvec3(0);
   }
+  if (!sweep.external) add_loose_springs();
   const auto x_of = [&](int n) { return loose.x[std::size_t(n)]; };
   const auto v_of = [&](int n) { return loose.v[std::size_t(n)]; };
-  for (const LooseStencil& one : loose.stencils) {
+  for (const LooseStencil& one : loose.others) {
     if (sweep.external && one.force->group == Force::Group::internal) continue;
     const ForceAction action = action_of(cloth_.preset, one, x_of, v_of);
     for (std::size_t n = 0; n < std::size_t(one.stencil->points); ++n) loose.F[std::size_t(one.at[n])] += action.F[n];
   }
   for (std::size_t n = 0; n < loose.particles.size(); ++n) {
-    const int i = loose.particles[n] / columns, j = loose.particles[n] % columns;
-    for (int c = 0; c < 3; ++c) loose.force.row(i, c)[j] = R(loose.per_share[n] * loose.F[n][c]);
+    R* to = loose.force.row(0) + loose.places[n];
+    for (int c = 0; c < 3; ++c) to[c * component] = R(loose.per_share[n] * loose.F[n][c]);
   }
   cloth_.near_force = &loose.force;
 }
@@ -78,13 +120,12 @@ double CpuEngine<R, Present>::loose_slack(const Tears& tears) const {
     const int i = particle / cloth_.lattice.columns, j = particle % cloth_.lattice.columns;
     return glm::dvec3(cloth_.row(vector_x, i, 0)[j], cloth_.row(vector_x, i, 1)[j], cloth_.row(vector_x, i, 2)[j]);
   };
-  for (const LooseStencil& one : loose_.stencils) {
-    if (one.force != &force::stretch) continue;
-    const int a = loose_.particles[std::size_t(one.at[0])], b = loose_.particles[std::size_t(one.at[1])];
-    if (!overload_parts(tears, guards_, a, b)) continue;
-    const double longer = glm::distance(place(a), place(b)) - one.stencil->rest * p.L;
-    const double k = spring_constant(p, directions[std::size_t(one.stencil->spring[0].direction)]);
-    slack = std::min(slack, std::max(p.F_max / k - longer, 0.0));
+  for (const auto& spring : loose_.springs) {
+    const int a = loose_.particles[std::size_t(spring.a)], b = loose_.particles[std::size_t(spring.b)];
+    if (spring.sign < 0 || !overload_parts(tears, guards_, a, b)) continue;
+    // A half is overloaded as its whole is.
+    const double k = spring_constant(p, directions[std::size_t(spring.direction)]);
+    slack = std::min(slack, std::max(p.F_max / k - (glm::distance(place(a), place(b)) - spring.rest), 0.0));
   }
   return slack;
 }
@@ -92,6 +133,7 @@ double CpuEngine<R, Present>::loose_slack(const Tears& tears) const {
 // What the engine's other files need of this one.
 #define TYGLAB_MAKE(R, present)                                               \
   template void CpuEngine<R, (present)>::follow_loose(const Tears&);          \
+  template void CpuEngine<R, (present)>::add_loose_springs();                 \
   template void CpuEngine<R, (present)>::find_given_force(const ResolvedSweep&); \
   template double CpuEngine<R, (present)>::loose_slack(const Tears&) const; \
   template double CpuEngine<R, (present)>::share_held() const;
