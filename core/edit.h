@@ -28,12 +28,12 @@ struct MoveHand {
   int steps;
 };
 struct Release {};
-/// These particles lose their springs upward (2.3.4).
+/// These particles lose their springs upward (2.3.4). Where the cloth parts, it is cut from each to the next.
 struct Cut {
   std::vector<Pins::Site> sites;
 };
-/// Cuts these stretch springs and the bending springs over them, whatever the path of the knife. Sites outside the
-/// lattice are ignored.
+/// Cuts these stretch springs and the bending springs over them, whatever the path of the knife; where the cloth parts,
+/// it is cut through their owners. Sites outside the lattice are ignored.
 struct CutSprings {
   std::vector<SpringSite> springs;
 };

@@ -110,7 +110,8 @@ static StateRows copied_rows(const StateRows& sites, const Tears& tears) {
   state->x.resize(std::size_t(lattice.size())), state->v.resize(std::size_t(lattice.size()));
   const auto row = [&](int i) {
     const std::size_t at = std::size_t(i) * lattice.columns;
-    return StateRow{{&state->x.x[at], &state->x.y[at], &state->x.z[at]}, {&state->v.x[at], &state->v.y[at], &state->v.z[at]}};
+    return StateRow{{&state->x.x[at], &state->x.y[at], &state->x.z[at]},
+                    {&state->v.x[at], &state->v.y[at], &state->v.z[at]}};
   };
   for (int i = 0; i < lattice.sites().rows; ++i) sites(i, row(i));
   for (int n = lattice.sites().size(); n < tears.particles(); ++n) copy_particle(*state, tears.mesh()->site(n), n);
@@ -412,6 +413,7 @@ void Simulation::release() {
 }
 
 void Simulation::cut(const edit::Cut& e) {
+  if (parts(preset_)) return part(openings_of_path(tears_, e.sites));
   edit::CutSprings all;
   for (const auto [i, j] : e.sites) {
     all.springs.push_back({2, i - 1, j - 1});  // to (i-1, j-1): owned by that particle, direction SE
@@ -448,7 +450,8 @@ void Simulation::part(const std::vector<Opening>& openings) {
   Tears tears(next, mesh);
   for (VectorField<double>* field : {&state.x, &state.v})
     for (Array<double>* component : {&field->x, &field->y, &field->z}) component->resize(std::size_t(next.size()), 0);
-  for (int n = before; n < next.size(); ++n) copy_particle(state, n < mesh->particles() ? openings[std::size_t(n - before)].particle : 0, n);
+  for (int n = before; n < next.size(); ++n)
+    copy_particle(state, n < mesh->particles() ? openings[std::size_t(n - before)].particle : 0, n);
   std::vector<std::uint8_t> pinned_mask = pins_of(preset_, tears);
   std::vector<int> pinned = particles_in(pinned_mask);
   std::unique_ptr<Engine> engine;

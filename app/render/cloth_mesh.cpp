@@ -56,8 +56,7 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   }
   glBindVertexArray(array_.id());
   const bool needs_normals = options.lit() && (moved || !normals_ready_);
-  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0],
-             scene.lattice.size() - scene.tears.particles()};
+  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0], scene.lattice.size() - scene.tears.particles()};
   if (scene.writer)
     have_written(scene, moved, needs_normals, work);
   else
@@ -228,9 +227,8 @@ void ClothMesh::prepare(List list, const ClothScene& scene) {
       indices = connection_indices(lattice_, stride_, scene.tears);
       break;
     case List::particles:
-      indices = particle_indices(lattice_, stride_, [&](int i, int j) {
-        return i * lattice_.columns + j < scene.tears.particles();
-      });
+      indices = particle_indices(lattice_, stride_,
+                                 [&](int i, int j) { return i * lattice_.columns + j < scene.tears.particles(); });
       break;
     case List::pins:
       if (scene.pinned) indices = particle_indices(lattice_, stride_, scene.pinned);

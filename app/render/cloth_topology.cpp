@@ -208,13 +208,14 @@ std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int st
   if (const Mesh* mesh = tears.mesh())
     for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
       const auto parted = [&](int particle) { return mesh->parted(mesh->site(particle)); };
-      if (parted(a) || parted(b) || parted(c)) beside[std::size_t(a)] = beside[std::size_t(b)] = beside[std::size_t(c)] = true;
+      if (parted(a) || parted(b) || parted(c))
+        beside[std::size_t(a)] = beside[std::size_t(b)] = beside[std::size_t(c)] = true;
     });
   else
     for_each_cell(lattice, [&](int i, int j, int which) {
-    if (tears.triangle_whole(i, j, which)) return;
-    for (const Corner& c : corners_of(i, j, which)) beside[(i + c.di) * lattice.columns + j + c.dj] = true;
-  });
+      if (tears.triangle_whole(i, j, which)) return;
+      for (const Corner& c : corners_of(i, j, which)) beside[(i + c.di) * lattice.columns + j + c.dj] = true;
+    });
   return particle_indices(lattice, stride, [&](int i, int j) { return beside[i * lattice.columns + j]; });
 }
 

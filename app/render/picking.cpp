@@ -273,7 +273,9 @@ std::vector<SpringSite> springs_across(const PositionView& positions, const Tear
         met.push_back({direction, i, j});
       }
   }
-  const auto place = [&](int particle) { return positions.at(particle / positions.columns, particle % positions.columns); };
+  const auto place = [&](int particle) {
+    return positions.at(particle / positions.columns, particle % positions.columns);
+  };
   for (const LooseSpring& spring : loose_springs(tears, 0, stretch_directions)) {
     const glm::dvec3 x_a = place(spring.a), x_b = place(spring.b);
     const Seen a = stroke_set.look(x_a), b = stroke_set.look(x_b);

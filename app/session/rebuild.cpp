@@ -155,7 +155,8 @@ void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
 
 void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order) {
   assert(order.programs == (made.simulation == nullptr));
-  assert(order.programs || made.simulation->lattice().sites() == lattice_of(order.target));  // nothing that was not ordered
+  assert(order.programs ||
+         made.simulation->lattice().sites() == lattice_of(order.target));  // nothing that was not ordered
   edit::Change change{order.target};
   if (order.programs) {
     change_and_follow(session, change);

@@ -57,9 +57,7 @@ class Reader {
       squares -= (1 - tears_.share(int(n))) * glm::dot(v(n), v(n));
       if (tears_.parted(int(n) / lattice_.columns, int(n) % lattice_.columns)) heights -= state_.x.y[n];
     }
-    const auto leave_out = [&](int p) {
-      squares -= tears_.share(p) * glm::dot(v(std::size_t(p)), v(std::size_t(p)));
-    };
+    const auto leave_out = [&](int p) { squares -= tears_.share(p) * glm::dot(v(std::size_t(p)), v(std::size_t(p))); };
     if (held.particle >= 0) leave_out(held.particle);
     for (const DrivenPin& pin : driven) leave_out(pin.particle);
     sum.energy.kinetic = p_.m / 2 * squares;

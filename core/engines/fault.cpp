@@ -214,7 +214,9 @@ Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tear
                     [&](const Points&, const ForceAction& action) { motion.squared += 2 / preset.m * action.energy; });
   });
   for (const LooseStencil& loose : loose_stencils(preset, tears)) {
-    const auto x_of_particle = [&](int particle) { return x_of(particle / lattice.columns, particle % lattice.columns); };
+    const auto x_of_particle = [&](int particle) {
+      return x_of(particle / lattice.columns, particle % lattice.columns);
+    };
     if (loose.force->group == Force::Group::internal && loose.force->conserves)
       motion.squared += 2 / preset.m * action_of(preset, loose, x_of_particle, x_of_particle).energy;
   }

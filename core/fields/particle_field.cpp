@@ -205,9 +205,8 @@ void read_field(ParticleField field, Simulation& cloth, Simulation* reference, c
     case ParticleField::kinetic: {
       const State& state = cloth.read();
       const double half = cloth.preset().m / 2;
-      return read_each(sites, values.data(), [&](std::size_t p) {
-        return half * cloth.tears().share(int(p)) * speed_squared(state, p);
-      });
+      return read_each(sites, values.data(),
+                       [&](std::size_t p) { return half * cloth.tears().share(int(p)) * speed_squared(state, p); });
     }
     case ParticleField::distance:
       if (reference == nullptr || reference->lattice() != cloth.lattice())

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 
 namespace tyglab {
 namespace {
@@ -83,9 +84,8 @@ void add_sides(const Mesh& mesh, const Force& force, const Stencil& stencil, con
   for (const Side& side : shape.sides) {
     if (!exists(side)) continue;
     LooseStencil loose{&force, &stencil, {}, 1.0 / double(count), {stencil.spring[0].direction, owner.di, owner.dj}};
-    const bool holds = std::all_of(shape.sites.begin(), shape.sites.end(), [&](const Corner& site) {
-      return particle_at(mesh, side, owner, site) >= 0;
-    });
+    const bool holds = std::all_of(shape.sites.begin(), shape.sites.end(),
+                                   [&](const Corner& site) { return particle_at(mesh, side, owner, site) >= 0; });
     if (!holds) continue;
     for (std::size_t n = 0; n < std::size_t(stencil.points); ++n)
       loose.at[n] = particle_at(mesh, side, owner, {stencil.at[n].di, stencil.at[n].dj});
@@ -99,27 +99,27 @@ void add_loose(const Mesh& mesh, const std::vector<int>& parted, const Force& fo
   const Lattice& sites = mesh.sites();
   assert(!stencil.alone);
   if (stencil.points == 1) {  // what acts on a mass
-      for (const int site : parted) all.push_back({&force, &stencil, {site}, mesh.share(site), {}});
-      for (int copy = sites.size(); copy < mesh.particles(); ++copy)
-        all.push_back({&force, &stencil, {copy}, mesh.share(copy), {}});
-      return;
+    for (const int site : parted) all.push_back({&force, &stencil, {site}, mesh.share(site), {}});
+    for (int copy = sites.size(); copy < mesh.particles(); ++copy)
+      all.push_back({&force, &stencil, {copy}, mesh.share(copy), {}});
+    return;
+  }
+  const Shape shape = shape_of(stencil);
+  std::vector<int> owners;
+  for (const int site : parted)
+    for (const Corner& at : shape.sites) {
+      const int i = site / sites.columns - at.di, j = site % sites.columns - at.dj;
+      if (sites.contains(i, j)) owners.push_back(i * sites.columns + j);
     }
-    const Shape shape = shape_of(stencil);
-    std::vector<int> owners;
-    for (const int site : parted)
-      for (const Corner& at : shape.sites) {
-        const int i = site / sites.columns - at.di, j = site % sites.columns - at.dj;
-        if (sites.contains(i, j)) owners.push_back(i * sites.columns + j);
-      }
-    std::sort(owners.begin(), owners.end());
-    owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
-    for (const int owner : owners) {
-      const Corner at{owner / sites.columns, owner % sites.columns};
-      const bool even = (at.di + at.dj) % 2 == 0;
-      if (stencil.owners != Stencil::Owners::all && even != (stencil.owners == Stencil::Owners::even)) continue;
-      const bool inside = std::all_of(shape.sites.begin(), shape.sites.end(), [&](const Corner& site) {
-        return sites.contains(at.di + site.di, at.dj + site.dj);
-      });
+  std::sort(owners.begin(), owners.end());
+  owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+  for (const int owner : owners) {
+    const Corner at{owner / sites.columns, owner % sites.columns};
+    const bool even = (at.di + at.dj) % 2 == 0;
+    if (stencil.owners != Stencil::Owners::all && even != (stencil.owners == Stencil::Owners::even)) continue;
+    const bool inside = std::all_of(shape.sites.begin(), shape.sites.end(), [&](const Corner& site) {
+      return sites.contains(at.di + site.di, at.dj + site.dj);
+    });
     if (inside) add_sides(mesh, force, stencil, shape, at, all);
   }
 }
@@ -194,7 +194,8 @@ class Puller {
       const bool along = to.di == own.di, down = to.dj == own.dj;
       // The cell on the other side of the edge has the other half, if there is one.
       const int ni = i + (along ? (own.di == 0 ? -1 : 1) : 0), nj = j + (down ? (own.dj == 0 ? -1 : 1) : 0);
-      const bool alone = !along && !down ? true : !mesh_.sites().contains(ni, nj) || !mesh_.sites().contains(ni + 1, nj + 1);
+      const bool alone =
+          !along && !down ? true : !mesh_.sites().contains(ni, nj) || !mesh_.sites().contains(ni + 1, nj + 1);
       sum += (alone ? 1 : 0.5) * pull(particle, mesh_.corner(i, j, to), along ? 0 : down ? 1 : 2);
     }
     return sum;
@@ -278,43 +279,120 @@ std::vector<Opening> openings_of_overload(const Preset& preset, const Tears& tea
   return all;
 }
 
+namespace {
+
+/// Edges of the lattice that meet in a site, and along which a cut runs.
+enum Leg : unsigned { up = 1, down = 2, left = 4, right = 8 };
+constexpr std::array<Leg, 4> all_legs{up, down, left, right};
+
+Corner step_along(Leg leg) {
+  return {leg == up ? -1 : leg == down ? 1 : 0, leg == left ? -1 : leg == right ? 1 : 0};
+}
+Leg opposite(Leg leg) {
+  return leg == up ? down : leg == down ? up : leg == left ? right : left;
+}
+/// The cells on either side of a leg, by their numbers round its site.
+std::pair<int, int> beside(Leg leg) {
+  return leg == up ? std::pair(0, 1) : leg == down ? std::pair(2, 3) : leg == left ? std::pair(0, 2) : std::pair(1, 3);
+}
+
+class Cutter {
+ public:
+  explicit Cutter(const Tears& tears)
+      : whole_(tears.lattice().sites()), mesh_(tears.mesh() != nullptr ? *tears.mesh() : whole_) {}
+
+  const Lattice& sites() const { return mesh_.sites(); }
+  int site(int i, int j) const { return i * sites().columns + j; }
+  std::optional<int> along(int site, Leg leg) const {
+    const Corner step = step_along(leg);
+    const int i = site / sites().columns + step.di, j = site % sites().columns + step.dj;
+    return sites().contains(i, j) ? std::optional(this->site(i, j)) : std::nullopt;
+  }
+  /// Edges that are open at their other ends.
+  unsigned open_legs(int site) const {
+    unsigned legs = 0;
+    for (const Leg leg : all_legs)
+      if (const auto other = along(site, leg)) {
+        const auto [a, b] = beside(opposite(leg));
+        const unsigned both = 1u << a | 1u << b;
+        if ((mesh_.cells_at(*other) & both) == both && mesh_.holder(*other, a) != mesh_.holder(*other, b)) legs |= leg;
+      }
+    return legs;
+  }
+  /// Parts a site along these legs: each particle of it keeps the cells on the side of its first.
+  void part(int site, unsigned legs) {
+    const unsigned cells = mesh_.cells_at(site);
+    std::array<int, Mesh::cells_round> side{0, 1, 2, 3};
+    for (const Leg leg : all_legs) {
+      const auto [a, b] = beside(leg);
+      if ((legs & leg) != 0 || (cells >> a & 1) == 0 || (cells >> b & 1) == 0) continue;
+      const int first = side[std::size_t(a)], second = side[std::size_t(b)];
+      std::replace(side.begin(), side.end(), std::max(first, second), std::min(first, second));
+    }
+    std::map<std::pair<int, int>, unsigned> parts;  // by particle and side
+    for (int cell = 0; cell < Mesh::cells_round; ++cell)
+      if ((cells >> cell & 1) != 0) parts[{mesh_.holder(site, cell), side[std::size_t(cell)]}] |= 1u << cell;
+    for (auto part = parts.begin(); part != parts.end(); ++part)
+      if (part != parts.begin() && std::prev(part)->first.first == part->first.first)
+        openings_.push_back({part->first.first, part->second});
+  }
+  std::vector<Opening> openings() { return std::move(openings_); }
+
+ private:
+  const Mesh whole_;
+  const Mesh& mesh_;
+  std::vector<Opening> openings_;
+};
+
+/// A leg alone goes on straight.
+unsigned straightened(unsigned legs) {
+  if (std::popcount(legs) != 1) return legs;
+  return (legs & (up | down)) != 0 ? up | down : left | right;
+}
+
+}  // namespace
+
 std::vector<Opening> openings_of_cut(const Tears& tears, std::span<const SpringSite> springs) {
-  enum Leg : unsigned { up = 1, down = 2, left = 4, right = 8 };
-  const Mesh whole(tears.lattice().sites());
-  const Mesh& mesh = tears.mesh() != nullptr ? *tears.mesh() : whole;
-  const Lattice& sites = mesh.sites();
+  Cutter cutter(tears);
   // A cut across a spring along a row runs up and down through its owner; across one down a column, left and right.
   std::map<int, unsigned> through;
   for (const SpringSite& spring : springs)
-    if (spring.direction < 2 && sites.has_spring(spring.direction, spring.i, spring.j))
-      through[spring.i * sites.columns + spring.j] |= spring.direction == 0 ? up | down : left | right;
-  std::vector<Opening> all;
-  for (const auto& [site, straight] : through) {
-    const int i = site / sites.columns, j = site % sites.columns;
-    const auto passes = [&](int ni, int nj) { return sites.contains(ni, nj) && through.contains(ni * sites.columns + nj); };
-    unsigned legs = (passes(i - 1, j) ? up : 0u) | (passes(i + 1, j) ? down : 0u) | (passes(i, j - 1) ? left : 0u) |
-                    (passes(i, j + 1) ? right : 0u);
-    // At its end it goes on straight to the middle of the next edge; alone it has but its own direction.
-    if (std::popcount(legs) == 1) legs |= (legs & (up | down)) != 0 ? up | down : left | right;
-    if (legs == 0) legs = straight;
-    // Cells on one side of the cut: those that no leg divides.
-    std::array<int, Mesh::cells_round> group{0, 1, 2, 3};
-    const auto join = [&](unsigned leg, int a, int b) {
-      if ((legs & leg) != 0) return;
-      const int from = group[std::size_t(b)], to = group[std::size_t(a)];
-      std::replace(group.begin(), group.end(), std::max(from, to), std::min(from, to));
-    };
-    join(up, 0, 1), join(left, 0, 2), join(right, 1, 3), join(down, 2, 3);
-    // Each particle of the site keeps the group of its first cell.
-    std::map<std::pair<int, int>, unsigned> parts;
-    for (int cell = 0; cell < Mesh::cells_round; ++cell)
-      if ((mesh.cells_at(site) >> cell & 1) != 0)
-        parts[{mesh.holder(site, cell), group[std::size_t(cell)]}] |= 1u << cell;
-    for (auto part = parts.begin(); part != parts.end(); ++part)
-      if (part != parts.begin() && std::prev(part)->first.first == part->first.first)
-        all.push_back({part->first.first, part->second});
+    if (spring.direction < 2 && cutter.sites().has_spring(spring.direction, spring.i, spring.j))
+      through[cutter.site(spring.i, spring.j)] |= spring.direction == 0 ? up | down : left | right;
+  for (const auto& [site, across] : through) {
+    unsigned legs = cutter.open_legs(site);
+    for (const Leg leg : all_legs)
+      if (const auto other = cutter.along(site, leg); other && through.contains(*other)) legs |= leg;
+    cutter.part(site, straightened(legs == 0 ? across : legs));
   }
-  return all;
+  return cutter.openings();
+}
+
+std::vector<Opening> openings_of_path(const Tears& tears, std::span<const Pins::Site> path) {
+  Cutter cutter(tears);
+  // From site to site along the lattice.
+  std::vector<int> way;
+  for (const Pins::Site& next : path) {
+    if (!tears.lattice().contains(next.i, next.j) || next.i * tears.lattice().columns + next.j >= tears.particles())
+      continue;
+    const Pins::Site to = tears.site(next.i * tears.lattice().columns + next.j);
+    const int columns = cutter.sites().columns, end = cutter.site(to.i, to.j);
+    if (way.empty()) way.push_back(end);
+    while (way.back() != end) {
+      const int down_by = to.i - way.back() / columns, along_by = to.j - way.back() % columns;
+      const bool along = std::abs(along_by) > std::abs(down_by);
+      way.push_back(way.back() + (along ? (along_by > 0 ? 1 : -1) : down_by > 0 ? columns : -columns));
+    }
+  }
+  std::map<int, unsigned> legs;
+  for (std::size_t n = 0; n + 1 < way.size(); ++n)
+    for (const Leg leg : all_legs)
+      if (cutter.along(way[n], leg) == way[n + 1]) legs[way[n]] |= leg, legs[way[n + 1]] |= opposite(leg);
+  // A touch of the knife cuts the springs above. The end of a longer way stays closed: a further way begins there.
+  if (way.size() == 1 && cutter.open_legs(way.front()) == 0) cutter.part(way.front(), left | right);
+  for (const auto& [site, cut] : legs)
+    if (site != way.back() || std::popcount(cut) > 1) cutter.part(site, straightened(cut | cutter.open_legs(site)));
+  return cutter.openings();
 }
 
 }  // namespace tyglab

@@ -1,8 +1,8 @@
 // A cloth that parts (core/cloth/mesh.h): which stencils act where it has parted, and where it parts next.
 //
 // A stencil along a row or down a column has a side of cells on either hand; its halves, one a side, act on the
-// particles that those cells hang on, while each particle between its ends is the same for both of its cells. Others lie
-// in a cell and act wholly on its particles. Halves add up to the whole, so to part a site changes no force of the
+// particles that those cells hang on, while each particle between its ends is the same for both of its cells. Others
+// lie in a cell and act wholly on its particles. Halves add up to the whole, so to part a site changes no force of the
 // cloth as it lies then, and no energy.
 #pragma once
 
@@ -68,5 +68,8 @@ std::vector<Opening> openings_of_overload(const Preset& preset, const Tears& tea
 bool overload_parts(const Tears& tears, const std::vector<std::uint8_t>& guarded, int a, int b);
 /// Where a cut across these stretch springs parts the cloth. It runs through the springs' owners, along the lattice.
 std::vector<Opening> openings_of_cut(const Tears& tears, std::span<const SpringSite> springs);
+/// Where a cut from particle to particle does, (i, j) as copies have it too. It runs along the lattice, and goes on
+/// from cuts that are there.
+std::vector<Opening> openings_of_path(const Tears& tears, std::span<const Pins::Site> path);
 
 }  // namespace tyglab

@@ -54,8 +54,9 @@ std::string value_problem(const Row<T>& row, const T& object) {
                    " Known: " + joined(integrator_names());
           const std::span<const std::string_view> allowed = row.key == "contact" ? std::span(contact_names)
                                                             : row.key == "self"  ? std::span(self_names)
-                                                            : row.key == "tearing.mode" ? std::span(tearing_names)
-                                                                                 : std::span<const std::string_view>();
+                                                            : row.key == "tearing.mode"
+                                                                ? std::span(tearing_names)
+                                                                : std::span<const std::string_view>();
           if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), value) == allowed.end())
             return "\"" + excerpt(value) + "\" is not known" + did_you_mean(value, allowed, ".") +
                    " Allowed: " + joined(allowed);

@@ -89,9 +89,9 @@ std::string bodies_text(const std::vector<Body>& bodies) {
 
 /// Constants that the first release did not have. A hash leaves them out where they have their defaults, so that a
 /// scene without them keeps its own; and so it does a section of nothing else.
-constexpr std::array<std::string_view, 16> later{"tearing.mode", "self",    "thickness", "friction", "B",          "twist",
-                                                 "contact", "k_warp",    "k_weft",   "k_shear",    "air_density",
-                                                 "u",       "C_N",       "C_T",      "kappa_warp", "kappa_weft"};
+constexpr std::array<std::string_view, 16> later{
+    "tearing.mode", "self",    "thickness",   "friction", "B",   "twist", "contact",    "k_warp",
+    "k_weft",       "k_shear", "air_density", "u",        "C_N", "C_T",   "kappa_warp", "kappa_weft"};
 bool is_left_out(const PresetRow& row, const Preset& p) {
   return std::find(later.begin(), later.end(), row.key) != later.end() &&
          field_text(row, p) == field_text(row, Preset{});

@@ -205,8 +205,8 @@ const auto rows = std::to_array<PresetRow>({
      &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "A larger force releases the held particle.", true,
      Kind::cloth, true},
 
-    {"tearing", "tearing.mode", "", "What an overload does", "Vad en överlast gör", "", &Preset::tearing, 0, 0, linear, tearing,
-     "3.2.3",
+    {"tearing", "tearing.mode", "", "What an overload does", "Vad en överlast gör", "", &Preset::tearing, 0, 0, linear,
+     tearing, "3.2.3",
      "springs: the spring breaks, and triangles that it bounds vanish (the report's rule); split: particles part and "
      "the cloth opens between its cells.",
      false, Kind::cloth, true},
@@ -339,8 +339,8 @@ void table(std::ostringstream& out, std::span<const Row<T>> list) {
   out << "| Key | Symbol | Quantity | Storhet | Unit | Allowed | Default | Equation | Meaning |\n"
          "|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& row : list)
-    out << "| `" << row.section << '.' << row.key_in_section() << "` | " << (row.symbol.empty() ? "–" : row.symbol) << " | "
-        << row.quantity << " | " << row.storhet << " | " << (row.unit.empty() ? "–" : row.unit) << " | "
+    out << "| `" << row.section << '.' << row.key_in_section() << "` | " << (row.symbol.empty() ? "–" : row.symbol)
+        << " | " << row.quantity << " | " << row.storhet << " | " << (row.unit.empty() ? "–" : row.unit) << " | "
         << range_text(row) << " | " << default_text(row) << " | " << (row.equation.empty() ? "–" : row.equation)
         << " | " << row.help << " |\n";
 }

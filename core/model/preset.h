@@ -104,8 +104,8 @@ struct Preset {
   double gust_period = 2;   ///< s
 
   // tearing
-  double F_max = 0;      ///< 0: never
-  double F_release = 0;  ///< 0: never
+  double F_max = 0;                 ///< 0: never
+  double F_release = 0;             ///< 0: never
   std::string tearing = "springs";  ///< what an overload does: one of tearing_names (words.h)
 
   // contact of the cloth with itself

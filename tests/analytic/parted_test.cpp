@@ -1,5 +1,5 @@
-// A cloth that parts (core/forces/parted.h): what a split keeps, what hangs together afterward, and engines against each
-// other.
+// A cloth that parts (core/forces/parted.h): what a split keeps, what hangs together afterward, and engines against
+// each other.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -90,7 +90,8 @@ TEST_CASE("to part particles divides their cells and their mass, and loses neith
   CHECK(mesh.particles() == 4 * (sites.rows - 1) * (sites.columns - 1));
 }
 
-TEST_CASE("before copies move, all forces of a parted cloth add up to those of the whole one, but for bending over cuts") {
+TEST_CASE(
+    "before copies move, all forces of a parted cloth add up to those of the whole one, but for bending over cuts") {
   const Preset p = sheet(7, 8);
   const State state = test::crumpled(p, 5);
   const Vectors x = vectors(state.x), v = vectors(state.v);
@@ -167,7 +168,8 @@ TEST_CASE("the CPU engine moves a parted cloth as the plain one does, the same w
       Preset other = p;
       other.engine = std::string(method) == "dopri5" ? EngineKind::cpu : EngineKind::plain;
       Simulation fast(p, 1), threads(p, 2), plain(other, 1);
-      for (Simulation* one : {&fast, &threads, &plain}) one->apply(edit::CutSprings{{{0, 20, 10}, {0, 21, 10}, {1, 30, 30}}});
+      for (Simulation* one : {&fast, &threads, &plain})
+        one->apply(edit::CutSprings{{{0, 20, 10}, {0, 21, 10}, {1, 30, 30}}});
       for (Simulation* one : {&fast, &threads, &plain}) one->advance(precision == Precision::double_ ? 250 : 100);
       CAPTURE(method);
       CHECK(fast.tears().particles() > 40 * 48);
@@ -241,7 +243,8 @@ TEST_CASE("a piece that is cut off falls as a piece, and what is left hangs on")
       const bool below = site.i > 6 || (site.i == 6 && (cells & (Mesh::down_left | Mesh::down_right)) != 0);
       if (!below) continue;
       const double share = simulation.tears().share(n);
-      mass += share, x += share * test::position(state, std::size_t(n)), v += share * test::velocity(state, std::size_t(n));
+      mass += share, x += share * test::position(state, std::size_t(n)),
+          v += share * test::velocity(state, std::size_t(n));
     }
     CHECK(mass == doctest::Approx(6 * 9 + 4.5));
     return std::pair(x / mass, v / mass);
@@ -299,7 +302,8 @@ TEST_CASE("the largest line tension decides where an overloaded spring parts the
   State state = start_state(p);
   // Stretched along the rows, and most of all between columns 4 and 5.
   for (int i = 0; i < 9; ++i)
-    for (int j = 0; j < 9; ++j) state.x.x[std::size_t(9 * i + j)] *= 1.02, state.x.x[std::size_t(9 * i + j)] += j > 4 ? 0.3 * p.L : 0;
+    for (int j = 0; j < 9; ++j)
+      state.x.x[std::size_t(9 * i + j)] *= 1.02, state.x.x[std::size_t(9 * i + j)] += j > 4 ? 0.3 * p.L : 0;
   const Vectors x = vectors(state.x);
   const std::vector<Opening> openings = openings_of_overload(p, Tears(lattice_of(p)), x, {});
   REQUIRE(openings.size() >= 9);

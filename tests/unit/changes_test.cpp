@@ -70,13 +70,13 @@ void change(std::vector<Body>& value) {
   value[0].r *= 0.9;
 }
 void change(std::string& value) {
-  value = value == "verlet"  ? "rk4"
-          : value == "rk4"   ? "velocity_verlet"
-          : value == "local" ? "step"
+  value = value == "verlet"    ? "rk4"
+          : value == "rk4"     ? "velocity_verlet"
+          : value == "local"   ? "step"
           : value == "springs" ? "split"
-          : value == "off"   ? "repel"
-          : value == "repel" ? "guard"
-                             : value + "2";
+          : value == "off"     ? "repel"
+          : value == "repel"   ? "guard"
+                               : value + "2";
 }
 
 /// The preset with another, allowed value of that field alone.

@@ -349,9 +349,10 @@ void constants_sections(Ui& ui) {
                "Layers of the cloth pass through each other, repel each other when they are near, or are also kept "
                "apart by a bound of each step's motion.");
     if (name == "Tearing" && cloth)
-      word_row(ui, "tearing.mode", "overload", &Preset::tearing, tearing_names, tearing_titles,
-               "A spring pulled harder than F_max breaks, and triangles vanish with it (the report's rule), or particles "
-               "part: the cloth opens between its cells and loses none.");
+      word_row(
+          ui, "tearing.mode", "overload", &Preset::tearing, tearing_names, tearing_titles,
+          "A spring pulled harder than F_max breaks, and triangles vanish with it (the report's rule), or particles "
+          "part: the cloth opens between its cells and loses none.");
     rows(ui, wanted);
     if (name == "Integrator") step_limit_row(ui), stability_row(ui);
     if (name == "Cloth" && cloth) resolution_row(ui), pins_row(ui);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/ui/frame/panels.h"
 #include "app/session/motion.h"
+#include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/theory/advice.h"

@@ -295,7 +295,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
     /// F_s or F_b, and F_d, of a spring, with all halves that join its particles.
     struct Spring {
       int a, b;
-      int direction;  ///< of the lattice
+      int direction;                    ///< of the lattice
       double sign;                      ///< 1 pulls, -1 pushes
       double rest = 0, k = 0, k_d = 0;  ///< m, N/m, N s/m
     };

@@ -1,6 +1,6 @@
-// Where the cloth has parted (core/forces/parted.h), around the sweeps. The sweep finds no stencil of the lattice there;
-// before it one thread adds what loose stencils do, in double, to the force that rows begin with. The sweep divides it
-// by m, and a particle with a share of that mass is given that much more.
+// Where the cloth has parted (core/forces/parted.h), around the sweeps. The sweep finds no stencil of the lattice
+// there; before it one thread adds what loose stencils do, in double, to the force that rows begin with. The sweep
+// divides it by m, and a particle with a share of that mass is given that much more.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,8 @@ void CpuEngine<R, Present>::follow_loose(const Tears& tears) {
     }
     const int direction = one.spring.direction + (bends ? stretch_directions : 0);
     auto& spring = springs.try_emplace({one.at[0], one.at[1], direction}).first->second;
-    spring.a = one.at[0], spring.b = one.at[1], spring.direction = direction, spring.sign = bends ? -1 : 1, spring.rest = one.stencil->rest * p.L;
+    spring.a = one.at[0], spring.b = one.at[1], spring.direction = direction, spring.sign = bends ? -1 : 1,
+    spring.rest = one.stencil->rest * p.L;
     (damps ? spring.k_d : spring.k) += one.weight * (damps ? p.k_d : one.force->stiffness(p, *one.stencil));
   }
   for (const auto& [key, spring] : springs) loose.springs.push_back(spring);
@@ -131,11 +132,11 @@ double CpuEngine<R, Present>::loose_slack(const Tears& tears) const {
 }
 
 // What the engine's other files need of this one.
-#define TYGLAB_MAKE(R, present)                                               \
-  template void CpuEngine<R, (present)>::follow_loose(const Tears&);          \
-  template void CpuEngine<R, (present)>::add_loose_springs();                 \
+#define TYGLAB_MAKE(R, present)                                                  \
+  template void CpuEngine<R, (present)>::follow_loose(const Tears&);             \
+  template void CpuEngine<R, (present)>::add_loose_springs();                    \
   template void CpuEngine<R, (present)>::find_given_force(const ResolvedSweep&); \
-  template double CpuEngine<R, (present)>::loose_slack(const Tears&) const; \
+  template double CpuEngine<R, (present)>::loose_slack(const Tears&) const;      \
   template double CpuEngine<R, (present)>::share_held() const;
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE

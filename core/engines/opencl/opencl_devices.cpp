@@ -80,10 +80,10 @@ std::string opencl_problem(const Preset& preset) {
   if (missing == nullptr) return {};
   return "The OpenCL engine does not compute " + words_of_missing(*missing, preset.integrator) +
          "; use the CPU engine (--engine cpu)" +
-         (missing == &force::air    ? ", an explicit method such as verlet, or air_density = 0"
-          : missing == &force::self ? " or self = off"
+         (missing == &force::air       ? ", an explicit method such as verlet, or air_density = 0"
+          : missing == &force::self    ? " or self = off"
           : missing == &force::stretch ? " or tearing.mode = springs"
-                                    : " or kappa_warp = kappa_weft = 0");
+                                       : " or kappa_warp = kappa_weft = 0");
 }
 
 }  // namespace tyglab
