@@ -172,7 +172,7 @@ void write_tables(std::string_view input) {
   for (VectorField<double>* field : {&state.x, &state.v})
     for (auto* part : {&field->x, &field->y, &field->z})
       for (double& value : *part) value = numbers.next(), value = std::isfinite(value) ? value : 0;
-  const std::string text = state_csv(lattice, state, {0.5, 3, "0123456789abcdef"});
+  const std::string text = state_csv(Tears(lattice), state, {0.5, 3, "0123456789abcdef"});
   require_good_table(text, 6);
   std::string problem;
   const CsvTable table = read_csv(text, problem);

@@ -55,7 +55,7 @@ TEST_CASE("what is not finite is an empty cell, and no coordinate of a mesh") {
   Simulation simulation(test::cloth(3, 2));
   State state = simulation.read();
   state.v.y[3] = infinite, state.x.z[5] = -infinite;
-  const std::string rows = state_csv(simulation.lattice(), state, {0.5, 7, "hash"});
+  const std::string rows = state_csv(simulation.tears(), state, {0.5, 7, "hash"});
   CHECK(rows.find("inf") == std::string::npos);
   for (const std::string& row : test::lines(rows))
     if (!row.starts_with("#")) CHECK(std::count(row.begin(), row.end(), ',') == 7);
@@ -84,7 +84,7 @@ TEST_CASE("a state file holds the stamp, the header and every particle to the la
 TEST_CASE("a state file of one weight has one row") {
   Simulation simulation(test::one_weight());
   simulation.advance(10);
-  const std::string text = state_csv(simulation.lattice(), simulation.read_raw(), {0.01, 10, "0"});
+  const std::string text = state_csv(simulation.tears(), simulation.read_raw(), {0.01, 10, "0"});
   CHECK(test::lines(text).size() == 3);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("outputs that cannot be written say so by name") {
   const test::TemporaryFolder folder;
   const auto missing = folder / "missing" / "file.csv";
   try {
-    write_output(missing, state_csv({2, 1}, start_state(test::cloth(2, 1)), {}));
+    write_output(missing, state_csv(Tears({2, 1}), start_state(test::cloth(2, 1)), {}));
     FAIL_CHECK("written");
   } catch (const OutputError& error) {
     CHECK(std::string(error.what()).find(missing.string()) != std::string::npos);
