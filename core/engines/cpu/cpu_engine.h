@@ -220,7 +220,6 @@ class CpuEngine final : public Engine, private GuardedSteps {
   Balance damping_balance() const;
   // Contact of the cloth with itself, on one thread (cpu_self.cpp).
   void begin_self(const Tears& tears);
-  void look_around(int vector, bool room);
   void find_near_force(const ResolvedSweep& sweep);
   bool end_self();
   void fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const;
