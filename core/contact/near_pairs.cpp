@@ -267,21 +267,11 @@ void NearPairs::find_lists() {
   search_left_ = search_per_L * L_;
 }
 
-/// A lower bound of the distance of parts of two blocks which share no particle, m.
-///
-/// Of blocks side by side: on the way from one point of their triangles to another, first along the rows and then down
-/// the columns, Δu and Δv sites far, each piece is the step of some spring. So the distance is |Δu e + Δv s|, where e
-/// and s are means of steps and lie in their boxes. Parts that share no particle are at least √½ sites apart.
-double NearPairs::apart(const List& list) const {
-  const Block &a = blocks_[std::size_t(list.a)], &b = blocks_[std::size_t(list.b)];
-  if (!adjacent(list.a, list.b)) {
-    const glm::vec3 off = glm::max(glm::max(a.at.least - b.at.most, b.at.least - a.at.most), glm::vec3(0));
-    return double(glm::length(off));
-  }
-  const Block &left = blocks_[std::size_t(list.a / block_columns_ * block_columns_ + list.b % block_columns_)],
-              &right = blocks_[std::size_t(list.b / block_columns_ * block_columns_ + list.a % block_columns_)];
-  const Box along = both(both(a.along, b.along), both(left.along, right.along));
-  const Box down = both(both(a.down, b.down), both(left.down, right.down));
+/// A lower bound of the distance of parts that share no particle, on triangles of which these boxes hold all steps, m.
+/// On the way from one point to another, first along the rows and then down the columns, Δu and Δv sites far, each
+/// piece is the step of some spring. So the distance is |Δu e + Δv s|, where e and s are means of steps and lie in
+/// their boxes. Parts that share no particle are at least √½ sites apart.
+double NearPairs::spread(const Box& along, const Box& down) {
   const bool has_along = along.least.x <= along.most.x, has_down = down.least.x <= down.most.x;
   if (!has_along && !has_down) return infinity;
   const glm::vec3 e = has_along ? (along.least + along.most) / 2.0f : glm::vec3(0),
@@ -294,6 +284,19 @@ double NearPairs::apart(const List& list) const {
   return (std::sqrt(std::max(least, 0.0)) - radius) * 0.7071;
 }
 
+/// A lower bound of the distance of parts of two blocks which share no particle, m.
+double NearPairs::apart(const List& list) const {
+  const Block &a = blocks_[std::size_t(list.a)], &b = blocks_[std::size_t(list.b)];
+  if (!adjacent(list.a, list.b)) {
+    const glm::vec3 off = glm::max(glm::max(a.at.least - b.at.most, b.at.least - a.at.most), glm::vec3(0));
+    return double(glm::length(off));
+  }
+  const Block &left = blocks_[std::size_t(list.a / block_columns_ * block_columns_ + list.b % block_columns_)],
+              &right = blocks_[std::size_t(list.b / block_columns_ * block_columns_ + list.a % block_columns_)];
+  return spread(both(both(a.along, b.along), both(left.along, right.along)),
+                both(both(a.down, b.down), both(left.down, right.down)));
+}
+
 /// Numbers along some directions at once.
 using Lanes = std::array<float, 8>;
 
@@ -303,6 +306,7 @@ struct NearPairs::Sites {
   std::array<std::array<float, sites>, 3> least, most;  ///< of the particles of each site
   std::array<std::uint8_t, sites> used;                 ///< the bits of its parts
   int row, column;                                      ///< of its first site in the lattice
+  std::array<Box, quarters> along, down;                ///< steps in its quarters
 };
 
 /// Finds the pairs of two blocks whose distance along none of some directions is larger than `within`.
@@ -312,6 +316,10 @@ class NearPairs::Maker {
       : same_(list.a == list.b), adjacent_(of.adjacent(list.a, list.b)), within_(float(within)) {
     gather(of, list.a, a_), gather(of, list.b, b_);
     per_unit_ = float(65536 / of.L_), margin_ = float(of.rounding_);
+    if (!adjacent_) return;
+    add_steps(a_), add_steps(b_);
+    for (int n = 0; n < quarters; ++n)
+      for (int m = 0; m < quarters; ++m) even_[std::size_t(n * quarters + m)] = is_even(n, m);
   }
 
   void find(std::vector<Pair>& into) {
@@ -325,7 +333,9 @@ class NearPairs::Maker {
           off[m] = std::max(off[m], std::max(b_.least[c][m] - most, least - b_.most[c][m]));
       }
       for (int m = same_ ? n : 0; m < sites; ++m)
-        if (off[std::size_t(m)] <= within_ && b_.used[std::size_t(m)] != 0) visit(n, m);
+        if (off[std::size_t(m)] <= within_ && b_.used[std::size_t(m)] != 0 &&
+            !(adjacent_ && even_[std::size_t(quarter_of(n) * quarters + quarter_of(m))]))
+          visit(n, m);
     }
   }
 
@@ -353,6 +363,43 @@ class NearPairs::Maker {
       for (int c = 0; c < 3; ++c)
         to.least[std::size_t(c)][std::size_t(site)] = least[c], to.most[std::size_t(c)][std::size_t(site)] = most[c];
     }
+  }
+
+  static int quarter_of(int site) { return site / side / half * 2 + site % side / half; }
+
+  static void add_steps(Sites& to) {
+    const auto add = [](Box& box, const glm::vec3& step) { box = both(box, Box{step, step}); };
+    for (int n = 0; n < quarters; ++n) {
+      Box &along = to.along[std::size_t(n)], &down = to.down[std::size_t(n)];
+      along = down = {glm::vec3(infinity), glm::vec3(-infinity)};
+      const glm::vec3* first = &to.at[std::size_t(n / 2 * half * span + n % 2 * half)];
+      for (int i = 0; i <= half; ++i)
+        for (int j = 0; j <= half; ++j) {
+          const glm::vec3* here = first + i * span + j;
+          if (j < half) add(along, here[1] - here[0]);
+          if (i < half) add(down, here[span] - here[0]);
+        }
+    }
+  }
+
+  /// Whether the cloth of two quarters side by side is so even that no parts of them are near.
+  bool is_even(int n, int m) const {
+    const int rows = (b_.row - a_.row) / half + m / 2 - n / 2, columns = (b_.column - a_.column) / half + m % 2 - n % 2;
+    if (std::abs(rows) > 1 || std::abs(columns) > 1) return false;
+    Box along = both(a_.along[std::size_t(n)], b_.along[std::size_t(m)]),
+        down = both(a_.down[std::size_t(n)], b_.down[std::size_t(m)]);
+    // The other two of a square are beside the first, in one block or the other.
+    if (rows != 0 && columns != 0)
+      for (const auto& [di, dj] : {std::array{rows, 0}, std::array{0, columns}}) {
+        const int i = n / 2 + di, j = n % 2 + dj;
+        const bool in_a = i >= 0 && i < 2 && j >= 0 && j < 2;
+        const int i_b = i - (b_.row - a_.row) / half, j_b = j - (b_.column - a_.column) / half;
+        if (!in_a && !(i_b >= 0 && i_b < 2 && j_b >= 0 && j_b < 2)) return false;
+        const Sites& of = in_a ? a_ : b_;
+        const std::size_t quarter = std::size_t(in_a ? 2 * i + j : 2 * i_b + j_b);
+        along = both(along, of.along[quarter]), down = both(down, of.down[quarter]);
+      }
+    return spread(along, down) > double(within_);
   }
 
   /// As seen from there.
@@ -386,6 +433,13 @@ class NearPairs::Maker {
     return extents;
   }
 
+  static float largest_gap(const Extent& a, const Extent& b) {
+    Lanes gaps;
+    for (std::size_t n = 0; n < 8; ++n) gaps[n] = std::max(a.least[n] - b.most[n], b.least[n] - a.most[n]);
+    for (std::size_t n = 0; n < 4; ++n) gaps[n] = std::max(gaps[n], gaps[n + 4]);
+    return std::max(std::max(gaps[0], gaps[1]), std::max(gaps[2], gaps[3]));
+  }
+
   /// Directions: the axes, the line between the middles, and the normals of both quads.
   void visit(int n, int m) {
     const glm::vec3& from = a_.at[std::size_t(n / side * span + n % side)];
@@ -402,9 +456,7 @@ class NearPairs::Maker {
     const auto meet = [&](int first, int second) {
       if ((a_.used[std::size_t(n)] >> first & 1) == 0 || (b_.used[std::size_t(m)] >> second & 1) == 0) return;
       const Extent &one = of_a[std::size_t(first)], &other = of_b[std::size_t(second)];
-      float apart = 0;
-      for (std::size_t k = 0; k < 8; ++k)
-        apart = std::max(apart, std::max(one.least[k] - other.most[k], other.least[k] - one.most[k]));
+      const float apart = largest_gap(one, other);
       if (apart > within_ || (adjacent_ && share(n, first, m, second))) return;
       const float bound = std::max(apart - margin_, 0.0f) * per_unit_;
       into_->emplace_back(n * parts_of_site + first, m * parts_of_site + second, std::uint32_t(bound));
@@ -434,6 +486,7 @@ class NearPairs::Maker {
   const bool same_, adjacent_;
   const float within_;
   float per_unit_ = 0, margin_ = 0;
+  std::array<bool, std::size_t(quarters* quarters)> even_{};
   std::vector<Pair>* into_ = nullptr;
 };
 

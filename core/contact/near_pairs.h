@@ -52,6 +52,11 @@ class NearPairs {
   template <class Visit>
   void measure(double below, Vectors x, Visit visit);
 
+  /// More than any coordinate of the positions followed last, m.
+  double farthest() const {
+    return farthest_ + std::max({std::abs(origin_.x), std::abs(origin_.y), std::abs(origin_.z)});
+  }
+
   /// Pairs in all lists, and how many lists have been made.
   std::int64_t size() const;
   std::int64_t made() const { return made_; }
@@ -60,6 +65,7 @@ class NearPairs {
  private:
   static constexpr int side = 4, sites = side * side;       ///< of a block
   static constexpr int span = side + 1, own = span * span;  ///< particles of its parts
+  static constexpr int half = side / 2, quarters = 4;       ///< of 2 x 2 sites
   static constexpr int parts_of_site = 6;                   ///< its particle, two triangles and three edges
 
   struct Box {
@@ -108,6 +114,7 @@ class NearPairs {
   void refit_all();
   void find_lists();
   void make(List& list);
+  static double spread(const Box& along, const Box& down);
   double apart(const List& list) const;
   double approach(const Box& a, const Box& b) const;
   bool adjacent(int a, int b) const;

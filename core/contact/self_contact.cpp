@@ -33,32 +33,17 @@ void SelfContact::set_preset(const Preset& preset, double k) {
 
 void SelfContact::follow(const Tears& tears, Vectors x) {
   pairs_.follow(tears, x);
-  room_.clear(), nearest_ = reach_per_L * L_, left_over_ = least_gap_per_L * L_;
+  nearest_ = reach_per_L * L_;
 }
 
-void SelfContact::look(Vectors x, bool room) {
+void SelfContact::look(Vectors x, bool begins_step) {
   touches_.clear();
-  if (room) begin_room(d_, x);
+  double nearest = d_;
   pairs_.measure(d_, x, [&](const std::array<int, 4>& at, const Gap& gap, double distance) {
-    if (room) take_room(at, distance);
+    nearest = std::min(nearest, distance);
     if (distance > 0) touches_.push_back({at, gap.weights, gap.between / distance, d_ - distance});
   });
-}
-
-/// Room is about to be measured up to that distance.
-void SelfContact::begin_room(double below, Vectors x) {
-  room_.assign(x.size(), below), nearest_ = below;
-  double farthest = 0;
-  for (const glm::dvec3& one : x)
-    for (int c = 0; c < 3; ++c) farthest = std::max(farthest, std::abs(one[c]));
-  // Positions may be kept in float.
-  constexpr double roundings = 8;
-  left_over_ = std::max(least_gap_per_L * L_, roundings * double(std::numeric_limits<float>::epsilon()) * farthest);
-}
-
-void SelfContact::take_room(const std::array<int, 4>& at, double distance) {
-  for (const int particle : at) room_[std::size_t(particle)] = std::min(room_[std::size_t(particle)], distance);
-  nearest_ = std::min(nearest_, distance);
+  if (begins_step) nearest_ = nearest;
 }
 
 double SelfContact::add_forces(std::span<glm::dvec3> F) const {
@@ -83,8 +68,14 @@ void SelfContact::add_friction(Vectors v, std::span<glm::dvec3> F) const {
   }
 }
 
+/// δ, where coordinates are that large, m: positions may be kept in float.
+double SelfContact::least_gap(double farthest) const {
+  constexpr double roundings = 8;
+  return std::max(least_gap_per_L * L_, roundings * double(std::numeric_limits<float>::epsilon()) * farthest);
+}
+
 double SelfContact::least_room() const {
-  return share_of_gap / 2 * std::max(nearest_ - left_over_, 0.0);
+  return share_of_gap / 2 * std::max(nearest_ - least_gap(pairs_.farthest()), 0.0);
 }
 
 std::span<const SelfContact::Held> SelfContact::hold_back(Vectors x_before, std::span<glm::dvec3> x, bool free) {
@@ -96,18 +87,22 @@ std::span<const SelfContact::Held> SelfContact::hold_back(Vectors x_before, std:
     common_ /= double(x.size());
   }
   const auto length = [&](std::size_t p) { return glm::length(x[p] - x_before[p] - common_); };
-  double longest = 0;
-  for (std::size_t p = 0; p < x.size(); ++p) longest = std::max(longest, length(p));
-  if (room_.empty()) {
-    begin_room(reach_per_L * L_, x_before);
-  } else if (longest > share_of_gap / 2 * (d_ - left_over_)) {
-    pairs_.follow(x_before);
-    begin_room(reach_per_L * L_, x_before);
-    pairs_.measure(reach_per_L * L_, x_before,
-                   [&](const std::array<int, 4>& at, const Gap&, double distance) { take_room(at, distance); });
-  }
+  double longest = 0, farthest = 0;
   for (std::size_t p = 0; p < x.size(); ++p) {
-    const double way = length(p), most = share_of_gap / 2 * std::max(room_[p] - left_over_, 0.0);
+    longest = std::max(longest, length(p));
+    for (int c = 0; c < 3; ++c) farthest = std::max(farthest, std::abs(x_before[p][c]));
+  }
+  const double least = least_gap(farthest);
+  // Pairs that are farther apart cut nothing short.
+  const double below = std::min(reach_per_L * L_, (longest / (share_of_gap / 2) + least) * (1 + 1e-9));
+  if (longest <= share_of_gap / 2 * (nearest_ - least)) return held_;
+  room_.assign(x.size(), below);
+  pairs_.follow(x_before);
+  pairs_.measure(below, x_before, [&](const std::array<int, 4>& at, const Gap&, double distance) {
+    for (const int particle : at) room_[std::size_t(particle)] = std::min(room_[std::size_t(particle)], distance);
+  });
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    const double way = length(p), most = share_of_gap / 2 * std::max(room_[p] - least, 0.0);
     if (!(way > most) || !std::isfinite(way)) continue;
     x[p] = x_before[p] + common_ + most / way * (x[p] - x_before[p] - common_);
     held_.push_back({int(p), most / way});

@@ -55,16 +55,15 @@ class SelfContact {
   /// Whether there may be forces.
   bool near() const { return pairs_.near(); }
 
-  /// Measures what is near at positions x (m), which are followed, for the forces. `room`: also for the guard, of a
-  /// step that begins there.
-  void look(Vectors x, bool room = false);
+  /// Measures what is near at positions x (m), which are followed. `begins_step`: the guard's next step.
+  void look(Vectors x, bool begins_step = false);
   /// Adds what pushes layers apart where look() saw them to F (N). Returns its energy, J.
   double add_forces(std::span<glm::dvec3> F) const;
   /// Adds the friction against their slip, with velocities v (m/s).
   void add_friction(Vectors v, std::span<glm::dvec3> F) const;
   bool has_friction() const { return friction_ > 0; }
 
-  /// The largest way that the guard leaves every particle, m: in a step that began where look() measured room, if
+  /// A way up to which the guard leaves every particle, m, in a step that began where it was followed, and looked at if
   /// anything was near.
   double least_room() const;
   /// What hold_back() does to a particle.
@@ -72,9 +71,9 @@ class SelfContact {
     int particle;
     double part;  ///< of its way that is left
   };
-  /// Cuts the ways of particles short that began a step at x_before, where look() measured room, if anything was near.
-  /// `free`: nothing is pinned or held, so the motion of the whole cloth, which brings nothing nearer, does not count.
-  /// Returns what it has changed; `x`: to where. Positions x_before are followed after it.
+  /// Cuts the ways of particles short in such a step, which began at x_before. `free`: nothing is pinned or held, so
+  /// the motion of the whole cloth, which brings nothing nearer, does not count. Returns what it has changed; `x`: to
+  /// where. It may have followed x_before.
   std::span<const Held> hold_back(Vectors x_before, std::span<glm::dvec3> x, bool free);
   /// The motion of the whole cloth in the last hold_back(), m.
   const glm::dvec3& common_way() const { return common_; }
@@ -92,15 +91,13 @@ class SelfContact {
     /// The size of the force, N, with k/d².
     double push(double k) const { return 4 * k * s * s * s; }
   };
-  void begin_room(double below, Vectors x);
-  void take_room(const std::array<int, 4>& at, double distance);
+  double least_gap(double farthest) const;
 
   NearPairs pairs_;
   double L_ = 0, d_ = 0, k_ = 0, friction_ = 0;
   std::vector<Touch> touches_;  ///< as of the last look
-  std::vector<double> room_;    ///< distance of each particle's nearest pair, at most up to where it was measured, m
-  double nearest_ = 0;          ///< the smallest of them, or the reach where nothing is near, m
-  double left_over_ = 0;        ///< of room, δ, m
+  double nearest_ = 0;          ///< distance of the nearest pair where the step began, if that matters, m
+  std::vector<double> room_;    ///< of each particle, if that matters, m
   std::vector<Held> held_;
   glm::dvec3 common_{0};
 };
