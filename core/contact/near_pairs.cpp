@@ -215,8 +215,7 @@ void NearPairs::follow(Vectors x) {
   if (due) {
     refit_all();
     if (search_left_ < 0) find_lists();
-    for (List& list : lists_)
-      if (list.left <= worn * list.used) make(list);
+    make_lists();
   }
   left_ = search_left_;
   for (const List& list : lists_) {
@@ -298,56 +297,89 @@ double NearPairs::apart(const List& list) const {
 }
 
 /// Numbers along some directions at once.
-using Lanes = std::array<float, 8>;
+using Lanes = std::array<float, 4>;
+
+/// The two kinds of pairs that parts of two sites make, by the parts' numbers.
+constexpr std::array<std::array<int, 2>, 13> kinds_of_pairs{
+    {{0, 1}, {0, 2}, {1, 0}, {2, 0}, {3, 3}, {3, 4}, {3, 5}, {4, 3}, {4, 4}, {4, 5}, {5, 3}, {5, 4}, {5, 5}}};
+constexpr unsigned all_pairs = (1u << kinds_of_pairs.size()) - 1, own_pairs = 3;  // of one site: not twice
+
+/// Which of them share no particle, as bits, by the first site's parity and how many rows and columns the second is
+/// behind it, from -1 to 1.
+constexpr auto apart_by_offset = [] {
+  std::array<std::array<std::array<unsigned, 3>, 3>, 2> table{};
+  for (int odd = 0; odd < 2; ++odd)
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj)
+        for (std::size_t kind = 0; kind < kinds_of_pairs.size(); ++kind) {
+          const auto& one = parts_by_parity[std::size_t(odd)][std::size_t(kinds_of_pairs[kind][0])];
+          const auto& other = parts_by_parity[std::size_t((odd + di + dj) & 1)][std::size_t(kinds_of_pairs[kind][1])];
+          bool shared = false;
+          for (int k = 0; k < one.count; ++k)
+            for (int l = 0; l < other.count; ++l) {
+              const int from = one.at[std::size_t(k)], to = other.at[std::size_t(l)];
+              shared = shared || (from / 2 == di + to / 2 && from % 2 == dj + to % 2);
+            }
+          if (!shared) table[std::size_t(odd)][std::size_t(di + 1)][std::size_t(dj + 1)] |= 1u << kind;
+        }
+  return table;
+}();
 
 /// The sites of a block, as floats.
 struct NearPairs::Sites {
   std::array<glm::vec3, own> at;
   std::array<std::array<float, sites>, 3> least, most;  ///< of the particles of each site
   std::array<std::uint8_t, sites> used;                 ///< the bits of its parts
-  int row, column;                                      ///< of its first site in the lattice
-  std::array<Box, quarters> along, down;                ///< steps in its quarters
+  unsigned used_sites;                                  ///< those with any, as bits
+  int block = -1;
+  int row, column;                        ///< of its first site in the lattice
+  std::array<Box, quarters> along, down;  ///< steps in its quarters
 };
 
 /// Finds the pairs of two blocks whose distance along none of some directions is larger than `within`.
 class NearPairs::Maker {
  public:
-  Maker(const NearPairs& of, const List& list, double within)
-      : same_(list.a == list.b), adjacent_(of.adjacent(list.a, list.b)), within_(float(within)) {
-    gather(of, list.a, a_), gather(of, list.b, b_);
-    per_unit_ = float(65536 / of.L_), margin_ = float(of.rounding_);
-    if (!adjacent_) return;
-    add_steps(a_), add_steps(b_);
-    for (int n = 0; n < quarters; ++n)
-      for (int m = 0; m < quarters; ++m) even_[std::size_t(n * quarters + m)] = is_even(n, m);
-  }
+  explicit Maker(const NearPairs& of) : of_(of), per_unit_(float(65536 / of.L_)), margin_(float(of.rounding_)) {}
 
-  void find(std::vector<Pair>& into) {
-    into_ = &into;
-    for (int n = 0; n < sites; ++n) {
-      if (a_.used[std::size_t(n)] == 0) continue;
-      std::array<float, sites> off{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float least = a_.least[c][std::size_t(n)], most = a_.most[c][std::size_t(n)];
-        for (std::size_t m = 0; m < sites; ++m)
-          off[m] = std::max(off[m], std::max(b_.least[c][m] - most, least - b_.most[c][m]));
-      }
-      for (int m = same_ ? n : 0; m < sites; ++m)
-        if (off[std::size_t(m)] <= within_ && b_.used[std::size_t(m)] != 0 &&
-            !(adjacent_ && even_[std::size_t(quarter_of(n) * quarters + quarter_of(m))]))
-          visit(n, m);
+  /// Until the next call.
+  const std::vector<Pair>& find(const List& list, double within) {
+    pairs_.clear();
+    same_ = list.a == list.b, within_ = float(within);
+    const bool adjacent = of_.adjacent(list.a, list.b);
+    gather(list.a, a_), gather(list.b, b_);
+    for (int quarter = 0; quarter < quarters; ++quarter) {
+      const unsigned asked = b_.used_sites & ~(adjacent ? evenly_beside(quarter) : 0);
+      if (asked == 0) continue;
+      for (const int n : sites_of(quarter))
+        if ((a_.used_sites >> n & 1) != 0) visit_all(n, same_ ? asked & (~0u << n) : asked);
     }
+    return pairs_;
   }
 
  private:
+  void visit_all(int n, unsigned asked) {
+    std::array<float, sites> off{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float least = a_.least[c][std::size_t(n)], most = a_.most[c][std::size_t(n)];
+      for (std::size_t m = 0; m < sites; ++m)
+        off[m] = std::max(off[m], std::max(b_.least[c][m] - most, least - b_.most[c][m]));
+    }
+    for (; asked != 0; asked &= asked - 1)
+      if (const int m = std::countr_zero(asked); off[std::size_t(m)] <= within_) visit(n, m);
+  }
+
   /// Where a part lies along each direction.
   struct Extent {
     Lanes least, most;
   };
+  using Corners = std::array<glm::vec3, 4>;
   using Extents = std::array<Extent, std::size_t(parts_of_site)>;
 
-  static void gather(const NearPairs& of, int block, Sites& to) {
-    to.row = block / of.block_columns_ * side, to.column = block % of.block_columns_ * side;
+  void gather(int block, Sites& to) const {
+    if (to.block == block) return;
+    const NearPairs& of = of_;
+    to.block = block, to.row = block / of.block_columns_ * side, to.column = block % of.block_columns_ * side;
+    to.used_sites = 0;
     const int columns = of.lattice_.columns;
     for (int n = 0; n < own; ++n) {
       const int i = std::min(to.row + n / span, of.lattice_.rows - 1), j = std::min(to.column + n % span, columns - 1);
@@ -357,15 +389,29 @@ class NearPairs::Maker {
     for (int site = 0; site < sites; ++site) {
       const int i = to.row + site / side, j = to.column + site % side;
       to.used[std::size_t(site)] = of.lattice_.contains(i, j) ? of.used_parts_[std::size_t(i * columns + j)] : 0;
+      if (to.used[std::size_t(site)] != 0) to.used_sites |= 1u << site;
       const glm::vec3 *upper = &to.at[std::size_t(site / side * span + site % side)], *lower = upper + span;
       const glm::vec3 least = glm::min(glm::min(upper[0], upper[1]), glm::min(lower[0], lower[1])),
                       most = glm::max(glm::max(upper[0], upper[1]), glm::max(lower[0], lower[1]));
       for (int c = 0; c < 3; ++c)
         to.least[std::size_t(c)][std::size_t(site)] = least[c], to.most[std::size_t(c)][std::size_t(site)] = most[c];
     }
+    add_steps(to);
   }
 
-  static int quarter_of(int site) { return site / side / half * 2 + site % side / half; }
+  static std::array<int, 4> sites_of(int quarter) {
+    const int first = quarter / 2 * half * side + quarter % 2 * half;
+    return {first, first + 1, first + side, first + side + 1};
+  }
+
+  /// The sites of the other block, as bits, whose quarters are even together with one of the first.
+  unsigned evenly_beside(int quarter) const {
+    unsigned all = 0;
+    for (int other = 0; other < quarters; ++other)
+      if (is_even(quarter, other))
+        for (const int site : sites_of(other)) all |= 1u << site;
+    return all;
+  }
 
   static void add_steps(Sites& to) {
     const auto add = [](Box& box, const glm::vec3& step) { box = both(box, Box{step, step}); };
@@ -403,103 +449,118 @@ class NearPairs::Maker {
   }
 
   /// As seen from there.
-  static std::array<glm::vec3, 4> corners(const Sites& of, int site, const glm::vec3& from) {
+  static Corners corners(const Sites& of, int site, const glm::vec3& from) {
     const glm::vec3 *upper = &of.at[std::size_t(site / side * span + site % side)], *lower = upper + span;
     return {upper[0] - from, upper[1] - from, lower[0] - from, lower[1] - from};
   }
 
-  /// A direction, or none where that has no length.
-  static glm::vec3 direction(const glm::vec3& along) {
-    const float squared = glm::dot(along, along);
-    return squared > 1e-30f ? along / std::sqrt(squared) : glm::vec3(0);
+  /// Some directions: the line between the middles, and the normals of both quads and a side; of quads side by side the
+  /// common normal, and in their plane what is across the rows and across the columns.
+  static std::array<Lanes, 3> directions_of(const Corners& a, const Corners& b, bool beside) {
+    const glm::vec3 between = b[0] + b[1] + b[2] + b[3] - (a[0] + a[1] + a[2] + a[3]);
+    std::array<glm::vec3, 4> raw;
+    if (beside) {
+      const glm::vec3 e = a[1] - a[0] + a[3] - a[2] + b[1] - b[0] + b[3] - b[2],
+                      s = a[2] - a[0] + a[3] - a[1] + b[2] - b[0] + b[3] - b[1], normal = glm::cross(e, s);
+      raw = {between, normal, glm::cross(s, normal), glm::cross(normal, e)};
+    } else {
+      const glm::vec3 of_a = glm::cross(a[3] - a[0], a[2] - a[1]), of_b = glm::cross(b[3] - b[0], b[2] - b[1]);
+      raw = {between, of_a, of_b, glm::cross(of_a, between)};
+    }
+    std::array<Lanes, 3> along;
+    for (std::size_t n = 0; n < 4; ++n) along[0][n] = raw[n].x, along[1][n] = raw[n].y, along[2][n] = raw[n].z;
+    for (std::size_t n = 0; n < 4; ++n) {
+      const float squared = along[0][n] * along[0][n] + along[1][n] * along[1][n] + along[2][n] * along[2][n];
+      const float scale = squared > 1e-30f ? 1 / std::sqrt(squared) : 0;
+      along[0][n] *= scale, along[1][n] *= scale, along[2][n] *= scale;
+    }
+    return along;
   }
 
-  static Extents extents(const std::array<glm::vec3, 4>& corners, const std::array<Lanes, 3>& along, int odd) {
+  static std::array<Lanes, 4> seen(const Corners& corners, const std::array<Lanes, 3>& along) {
     std::array<Lanes, 4> at;
     for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t n = 0; n < 8; ++n)
+      for (std::size_t n = 0; n < 4; ++n)
         at[k][n] = corners[k].x * along[0][n] + corners[k].y * along[1][n] + corners[k].z * along[2][n];
+    return at;
+  }
+
+  static void include(Extent& extent, const Lanes& at) {
+    for (std::size_t n = 0; n < 4; ++n)
+      extent.least[n] = std::min(extent.least[n], at[n]), extent.most[n] = std::max(extent.most[n], at[n]);
+  }
+
+  static Extents extents(const std::array<Lanes, 4>& at, int odd) {
     Extents extents;
     for (std::size_t part = 0; part < extents.size(); ++part) {
       const PartCorners& of = parts_by_parity[std::size_t(odd)][part];
-      Extent& to = extents[part];
-      to.least = to.most = at[std::size_t(of.at[0])];
-      for (int k = 1; k < of.count; ++k) {
-        const Lanes& next = at[std::size_t(of.at[std::size_t(k)])];
-        for (std::size_t n = 0; n < 8; ++n)
-          to.least[n] = std::min(to.least[n], next[n]), to.most[n] = std::max(to.most[n], next[n]);
-      }
+      extents[part] = {at[std::size_t(of.at[0])], at[std::size_t(of.at[0])]};
+      for (int k = 1; k < of.count; ++k) include(extents[part], at[std::size_t(of.at[std::size_t(k)])]);
     }
     return extents;
   }
 
-  static float largest_gap(const Extent& a, const Extent& b) {
+  static Extent extent(const std::array<Lanes, 4>& at) {
+    Extent all{at[0], at[0]};
+    for (std::size_t k = 1; k < 4; ++k) include(all, at[k]);
+    return all;
+  }
+
+  static float gap(const Extent& a, const Extent& b) {
     Lanes gaps;
-    for (std::size_t n = 0; n < 8; ++n) gaps[n] = std::max(a.least[n] - b.most[n], b.least[n] - a.most[n]);
-    for (std::size_t n = 0; n < 4; ++n) gaps[n] = std::max(gaps[n], gaps[n + 4]);
+    for (std::size_t n = 0; n < 4; ++n) gaps[n] = std::max(a.least[n] - b.most[n], b.least[n] - a.most[n]);
     return std::max(std::max(gaps[0], gaps[1]), std::max(gaps[2], gaps[3]));
   }
 
-  /// Directions: the axes, the line between the middles, and the normals of both quads.
   void visit(int n, int m) {
-    const glm::vec3& from = a_.at[std::size_t(n / side * span + n % side)];
-    const auto a = corners(a_, n, from), b = corners(b_, m, from);
-    const glm::vec3 between = direction(b[0] + b[1] + b[2] + b[3] - (a[0] + a[1] + a[2] + a[3])),
-                    normal_a = direction(glm::cross(a[3] - a[0], a[2] - a[1])),
-                    normal_b = direction(glm::cross(b[3] - b[0], b[2] - b[1]));
-    std::array<Lanes, 3> along;
-    for (int c = 0; c < 3; ++c)
-      along[std::size_t(c)] = {float(c == 0), float(c == 1), float(c == 2), between[c], normal_a[c], normal_b[c]};
-    const int odd_a = (n / side + n) % 2, odd_b = (m / side + m) % 2;
-    const Extents of_a = extents(a, along, odd_a), of_b = extents(b, along, odd_b);
-    const bool own_site = same_ && n == m;
-    const auto meet = [&](int first, int second) {
-      if ((a_.used[std::size_t(n)] >> first & 1) == 0 || (b_.used[std::size_t(m)] >> second & 1) == 0) return;
-      const Extent &one = of_a[std::size_t(first)], &other = of_b[std::size_t(second)];
-      const float apart = largest_gap(one, other);
-      if (apart > within_ || (adjacent_ && share(n, first, m, second))) return;
-      const float bound = std::max(apart - margin_, 0.0f) * per_unit_;
-      into_->emplace_back(n * parts_of_site + first, m * parts_of_site + second, std::uint32_t(bound));
-    };
-    for (const int triangle : {1, 2}) meet(0, triangle);
-    if (own_site) return;  // the edges of a site share particles
-    for (const int triangle : {1, 2}) meet(triangle, 0);
-    for (int first = 3; first < parts_of_site; ++first)
-      for (int second = 3; second < parts_of_site; ++second) meet(first, second);
-  }
-
-  /// Whether two parts have a particle in common.
-  bool share(int n, int first, int m, int second) const {
     const int rows = b_.row + m / side - a_.row - n / side, columns = b_.column + m % side - a_.column - n % side;
-    if (std::abs(rows) > 1 || std::abs(columns) > 1) return false;
-    const PartCorners &one = parts_by_parity[std::size_t((n / side + n) % 2)][std::size_t(first)],
-                      &other = parts_by_parity[std::size_t((m / side + m) % 2)][std::size_t(second)];
-    for (int k = 0; k < one.count; ++k)
-      for (int l = 0; l < other.count; ++l) {
-        const int from = one.at[std::size_t(k)], to = other.at[std::size_t(l)];
-        if (from / 2 == rows + to / 2 && from % 2 == columns + to % 2) return true;
-      }
-    return false;
+    const int odd_a = (n / side + n) % 2, odd_b = (m / side + m) % 2;
+    const bool beside = std::abs(rows) <= 1 && std::abs(columns) <= 1;
+    unsigned kinds =
+        beside ? apart_by_offset[std::size_t(odd_a)][std::size_t(rows + 1)][std::size_t(columns + 1)] : all_pairs;
+    if (same_ && n == m) kinds &= own_pairs;
+    const glm::vec3& from = a_.at[std::size_t(n / side * span + n % side)];
+    const Corners a = corners(a_, n, from), b = corners(b_, m, from);
+    const auto along = directions_of(a, b, beside);
+    const auto at_a = seen(a, along), at_b = seen(b, along);
+    if (!beside && gap(extent(at_a), extent(at_b)) > within_) return;
+    const Extents of_a = extents(at_a, odd_a), of_b = extents(at_b, odd_b);
+    for (; kinds != 0; kinds &= kinds - 1) {
+      const auto& [first, second] = kinds_of_pairs[std::size_t(std::countr_zero(kinds))];
+      if ((a_.used[std::size_t(n)] >> first & 1) == 0 || (b_.used[std::size_t(m)] >> second & 1) == 0) continue;
+      const float apart = gap(of_a[std::size_t(first)], of_b[std::size_t(second)]);
+      if (apart > within_) continue;
+      const float bound = std::max(apart - margin_, 0.0f) * per_unit_;
+      pairs_.emplace_back(n * parts_of_site + first, m * parts_of_site + second, std::uint32_t(bound));
+    }
   }
 
+  const NearPairs& of_;
+  const float per_unit_, margin_;
   Sites a_, b_;
-  const bool same_, adjacent_;
-  const float within_;
-  float per_unit_ = 0, margin_ = 0;
-  std::array<bool, std::size_t(quarters* quarters)> even_{};
-  std::vector<Pair>* into_ = nullptr;
+  bool same_ = false;
+  float within_ = 0;
+  std::vector<Pair> pairs_;
 };
 
-void NearPairs::make(List& list) {
+void NearPairs::make(List& list, Maker& maker) {
   ++made_;
-  list.pairs.clear();
   list.used = 0, list.least = infinity;
   list.left = apart(list) - reach_ - rounding_;
-  if (list.left >= certain_per_L * L_) return;
-  list.left = skin_per_L * L_;
-  Maker(*this, list, reach_ + list.left + rounding_).find(list.pairs);
-  for (const Pair& pair : list.pairs)
-    list.least = std::min(list.least, float(pair.bound() * (L_ / 65536) * (1 - 1e-6)));
+  const bool certain = list.left >= certain_per_L * L_;
+  if (!certain) list.left = skin_per_L * L_;
+  const std::span<const Pair> pairs =
+      certain ? std::span<const Pair>() : maker.find(list, reach_ + list.left + rounding_);
+  if (list.pairs.capacity() > 2 * pairs.size()) list.pairs = {};
+  list.pairs.assign(pairs.begin(), pairs.end());
+  for (const Pair& pair : pairs) list.least = std::min(list.least, float(pair.bound() * (L_ / 65536) * (1 - 1e-6)));
+}
+
+/// All whose use is nearly over.
+void NearPairs::make_lists() {
+  Maker maker(*this);
+  for (List& list : lists_)
+    if (list.left <= worn * list.used) make(list, maker);
 }
 
 std::int64_t NearPairs::size() const {

@@ -113,7 +113,8 @@ class NearPairs {
   void refit(Box Block::*box, int rows, int columns, const Value& value);
   void refit_all();
   void find_lists();
-  void make(List& list);
+  void make_lists();
+  void make(List& list, Maker& maker);
   static double spread(const Box& along, const Box& down);
   double apart(const List& list) const;
   double approach(const Box& a, const Box& b) const;
