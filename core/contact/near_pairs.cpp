@@ -556,11 +556,11 @@ void NearPairs::make(List& list, Maker& maker) {
   for (const Pair& pair : pairs) list.least = std::min(list.least, float(pair.bound() * (L_ / 65536) * (1 - 1e-6)));
 }
 
-/// All whose use is nearly over.
+/// All whose use is over, and of those that cost little to make all whose use is nearly over.
 void NearPairs::make_lists() {
   Maker maker(*this);
   for (List& list : lists_)
-    if (list.left <= worn * list.used) make(list, maker);
+    if (list.left < (list.pairs.empty() ? worn * list.used : 0)) make(list, maker);
 }
 
 std::int64_t NearPairs::size() const {

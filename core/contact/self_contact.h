@@ -57,6 +57,8 @@ class SelfContact {
 
   /// Measures what is near at positions x (m), which are followed. `begins_step`: the guard's next step.
   void look(Vectors x, bool begins_step = false);
+  /// Whether any pair that look() saw has a force.
+  bool touches() const { return !touches_.empty(); }
   /// Adds what pushes layers apart where look() saw them to F (N). Returns its energy, J.
   double add_forces(std::span<glm::dvec3> F) const;
   /// Adds the friction against their slip, with velocities v (m/s).

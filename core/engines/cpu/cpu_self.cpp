@@ -48,6 +48,7 @@ void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
     self_->contact.look(self_->x);
     self_->looked = false, self_->way = std::numeric_limits<double>::infinity();
   }
+  if (!self_->contact.touches()) return;
   F.assign(self_->x.size(), glm::dvec3(0));
   self_->contact.add_forces(F);
   if (self_->contact.has_friction()) {
