@@ -61,8 +61,9 @@ Vectors positions(const State& state) {
   return x;
 }
 
-/// The energy of all pairs, found by looking at each.
-double energy_of_all_pairs(const Preset& p, const Tears& tears, const Vectors& x) {
+/// Calls visit(distance) for all pairs, without boxes.
+template <class Visit>
+void for_all_pairs(const Preset& p, const Tears& tears, const Vectors& x, Visit visit) {
   struct Part {
     std::vector<int> at;
   };
@@ -83,21 +84,27 @@ double energy_of_all_pairs(const Preset& p, const Tears& tears, const Vectors& x
         for (int n = 0; n < 3; ++n)
           add(particles, {at[std::size_t(n)]}), add(edges, {at[std::size_t(n)], at[std::size_t((n + 1) % 3)]});
       }
-  const double d = 2 * contact_thickness(p), k = spring_constants(p).largest();
-  double energy = 0;
   const auto meet = [&](const Part& a, const Part& b) {
     for (const int one : a.at)
       if (std::find(b.at.begin(), b.at.end(), one) != b.at.end()) return;
     const auto place = [&](const Part& part, std::size_t n) { return x[std::size_t(part.at[n])]; };
     const Gap gap = a.at.size() == 1 ? gap_to_triangle(place(a, 0), {place(b, 0), place(b, 1), place(b, 2)})
                                      : gap_of_edges({place(a, 0), place(a, 1)}, {place(b, 0), place(b, 1)});
-    const double s = d - glm::length(gap.between);
-    if (s > 0) energy += k * std::pow(s, 4) / (d * d);
+    visit(glm::length(gap.between));
   };
   for (const Part& particle : particles)
     for (const Part& triangle : triangles) meet(particle, triangle);
   for (std::size_t n = 0; n < edges.size(); ++n)
     for (std::size_t m = n + 1; m < edges.size(); ++m) meet(edges[n], edges[m]);
+}
+
+/// Their energy.
+double energy_of_all_pairs(const Preset& p, const Tears& tears, const Vectors& x) {
+  const double d = 2 * contact_thickness(p), k = spring_constants(p).largest();
+  double energy = 0;
+  for_all_pairs(p, tears, x, [&](double distance) {
+    if (const double s = d - distance; s > 0) energy += k * std::pow(s, 4) / (d * d);
+  });
   return energy;
 }
 
@@ -147,6 +154,66 @@ TEST_CASE("boxes lose no pair that a look at every pair finds: crumpled, folded,
     most = std::max(most, wanted);
   }
   CHECK(most > 0);
+}
+
+/// Moves what is around some particle a little, and turns and moves the whole cloth.
+void stir(const Preset& p, Random& random, Vectors& x) {
+  const int row = random.below(p.rows), column = random.below(p.columns);
+  const glm::dvec3 way = random_point(random, 0.05 * p.L), all = glm::dvec3(3, -2, 1) * p.L;
+  const glm::dvec3 turn = random_point(random, 0.004), middle = x[x.size() / 2];
+  for (int i = 0; i < p.rows; ++i)
+    for (int j = 0; j < p.columns; ++j) {
+      glm::dvec3& one = x[std::size_t(i) * std::size_t(p.columns) + std::size_t(j)];
+      const double off = std::hypot(i - row, j - column);
+      one += all + glm::cross(turn, one - middle) + way * std::exp(-off * off / 8);
+    }
+}
+
+TEST_CASE("lists that are kept, and made anew only where the cloth has moved, lose no pair") {
+  for (const int scene : {0, 1, 2}) {
+    CAPTURE(scene);
+    const Preset p = sheet(scene == 2 ? 24 : 17, 14, "guard");
+    Random random(std::uint64_t(scene + 1));
+    Tears tears(lattice_of(p));
+    Vectors x = positions(scene == 0 ? test::crumpled(p, 4, 0.5) : folded(p, 0.45 * p.L));
+    const double reach = 0.4 * p.L;
+    NearPairs kept(lattice_of(p));
+    kept.set_distances(p.L, reach);
+    SelfContact contact(lattice_of(p));
+    contact.set_preset(p, layer_constant(p));
+    const int times = test::fewer(60, 10);
+    std::int64_t lists = 0;
+    for (int n = 0; n < times; ++n) {
+      CAPTURE(n);
+      stir(p, random, x);
+      kept.follow(tears, x);
+      if (n == 0) lists = kept.made();
+      std::vector<double> found, wanted;
+      // Twice, since what is known of a pair is what was measured last.
+      for (const double below : {n % 3 == 0 ? reach : reach / 2, reach}) {
+        found.clear();
+        kept.measure(below, x, [&](const auto&, const Gap&, double distance) { found.push_back(distance); });
+      }
+      for_all_pairs(p, tears, x, [&](double distance) {
+        if (distance < reach) wanted.push_back(distance);
+      });
+      std::sort(found.begin(), found.end()), std::sort(wanted.begin(), wanted.end());
+      REQUIRE(found.size() == wanted.size());
+      for (std::size_t k = 0; k < found.size(); ++k)
+        REQUIRE(found[k] == doctest::Approx(wanted[k]).epsilon(1e-9).scale(1e-6));
+      // Forces have the bits of lists that are new.
+      SelfContact fresh(lattice_of(p));
+      fresh.set_preset(p, layer_constant(p));
+      Vectors F(x.size(), glm::dvec3(0)), F_fresh = F;
+      contact.follow(tears, x), fresh.follow(tears, x);
+      contact.look(x), fresh.look(x);
+      contact.add_forces(F), fresh.add_forces(F_fresh);
+      REQUIRE(F == F_fresh);
+    }
+    // Most lists are kept most of the time.
+    CHECK(kept.made() > lists);
+    CHECK(kept.made() < lists * times / 2);
+  }
 }
 
 TEST_CASE("as many tears at other places are other tears") {
