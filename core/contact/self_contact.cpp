@@ -41,7 +41,10 @@ void SelfContact::look(Vectors x, bool begins_step) {
   double nearest = d_;
   pairs_.measure(d_, x, [&](const std::array<int, 4>& at, const Gap& gap, double distance) {
     nearest = std::min(nearest, distance);
-    if (distance > 0) touches_.push_back({at, gap.weights, gap.between / distance, d_ - distance});
+    if (distance == 0) return;
+    // There are many: memory grows by less than a vector's own way.
+    if (touches_.size() == touches_.capacity()) touches_.reserve(touches_.size() + touches_.size() / 4 + 16);
+    touches_.push_back({at, gap.weights, gap.between / distance, d_ - distance});
   });
   if (begins_step) nearest_ = nearest;
 }

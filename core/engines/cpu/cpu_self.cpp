@@ -75,9 +75,10 @@ bool CpuEngine<R, Present>::end_self() {
   self_->way += way, self_->looked = false;
   if (!guards_itself(cloth_.preset) || way <= self_->contact.least_room()) return false;
   const int columns = cloth_.lattice.columns;
-  fetch(self_->rows_before, 1, self_->before);
+  std::vector<glm::dvec3>& before = self_->v;
+  fetch(self_->rows_before, 1, before);
   fetch(cloth_.vector(vector_x), 1, self_->x);
-  const auto held = self_->contact.hold_back(self_->before, self_->x, all_fixed_.empty());
+  const auto held = self_->contact.hold_back(before, self_->x, all_fixed_.empty());
   self_->way = std::numeric_limits<double>::infinity();
   const glm::dvec3 common = self_->contact.common_way() * (cloth_.velocity_scale() / cloth_.dt);
   for (const auto [particle, part] : held) {
