@@ -57,14 +57,7 @@ std::vector<std::array<int, 2>> pairs_by_cgal(const VectorField<double>& x, cons
 /// Compares a cloth by the position of each particle (m), whole and torn at random. Returns how many pairs it has.
 template <class Position>
 std::int64_t compared(const Lattice& lattice, Position position) {
-  VectorField<double> x;
-  x.resize(std::size_t(lattice.size()));
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) {
-      const glm::dvec3 at = position(i, j);
-      const std::size_t p = std::size_t(i) * lattice.columns + j;
-      x.x[p] = at.x, x.y[p] = at.y, x.z[p] = at.z;
-    }
+  const VectorField<double> x = test::shaped(lattice, position);
   const CrossingLimits list_all{1 << 30};
   Tears tears(lattice);
   const Crossings whole = count_crossings(x, tears, list_all);

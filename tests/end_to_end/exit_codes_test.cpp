@@ -148,11 +148,11 @@ TEST_CASE("2: the command line is wrong, --set included") {
         "'shwo' is not one of its commands: show, notation, check. Did you mean 'show'?"},
        {{"bench", "nonsense"},
         2,
-        "tyglab: bench: 'nonsense' is not one of its commands: throughput, accuracy, skip, implicit, one-weight"},
+        "tyglab: bench: 'nonsense' is not one of its commands: throughput, accuracy, skip, implicit, contact, one-weight"},
        {{"bench", "accuracy", "--scene", "tsunami"}, 2, "no such scene; known: one_weight, hanging"},
        {{"bench", "one-weight", "--set", "kind=cloth"}, 2, "mass on a spring"},
        {{"bench", "one-weight", "--set", "dt=1e-6", "--seconds", "100"}, 2, "--seconds"},
-       {{"bench"}, 2, "throughput, accuracy, skip, implicit, one-weight"},
+       {{"bench"}, 2, "throughput, accuracy, skip, implicit, contact, one-weight"},
        {{"runn", "denim", "--steps", "1"}, 2, "Did you mean 'run'?"}},
       folder.path());
   CHECK(fs::is_empty(folder.path()));

@@ -40,6 +40,20 @@ State crumpled(const Preset& preset, std::uint64_t seed, double amount = 0.6, do
 void load(Simulation& simulation, const State& state);
 void load(oracle::Cloth& cloth, const State& state);
 
+/// A cloth by the position of each particle, m.
+template <class Position>
+VectorField<double> shaped(const Lattice& lattice, Position position) {
+  VectorField<double> x;
+  x.resize(std::size_t(lattice.size()));
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j) {
+      const glm::dvec3 at = position(i, j);
+      const std::size_t p = std::size_t(i) * lattice.columns + j;
+      x.x[p] = at.x, x.y[p] = at.y, x.z[p] = at.z;
+    }
+  return x;
+}
+
 glm::dvec3 position(const State& state, std::size_t p);
 glm::dvec3 velocity(const State& state, std::size_t p);
 

@@ -11,20 +11,6 @@
 
 namespace tyglab::crossings_test {
 
-/// A cloth by the position of each particle, m.
-template <class Position>
-VectorField<double> shaped(const Lattice& lattice, Position position) {
-  VectorField<double> x;
-  x.resize(std::size_t(lattice.size()));
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) {
-      const glm::dvec3 at = position(i, j);
-      const std::size_t p = std::size_t(i) * lattice.columns + j;
-      x.x[p] = at.x, x.y[p] = at.y, x.z[p] = at.z;
-    }
-  return x;
-}
-
 using Corners = std::array<Corner, 3>;  // as rows and columns of the lattice
 
 /// All whole triangles and every pair of them.
@@ -83,7 +69,7 @@ TEST_CASE("flat, sheared and hanging cloths do not cross themselves") {
   CHECK(count_crossings(simulation.read().x, simulation.tears()).pairs == 0);
   const Lattice lattice{9, 12};
   // Inclined, so that rounding moves particles off the plane.
-  const auto flat = shaped(lattice, [](int i, int j) {
+  const auto flat = test::shaped(lattice, [](int i, int j) {
     return glm::dvec3(0.1 * j + 0.03 * i, 0.07 * i, 0.3 * (0.1 * j) - 0.9 * (0.07 * i));
   });
   CHECK(count_crossings(flat, Tears(lattice)).pairs == 0);
@@ -95,13 +81,13 @@ TEST_CASE("large blocks of a flat or waving cloth are told at one look, and a sh
   CrossingLimits none_tested;
   none_tested.tested = 0;
   const auto waving = [&](double height) {
-    return shaped(lattice, [&](int i, int j) {
+    return test::shaped(lattice, [&](int i, int j) {
       return glm::dvec3(0.01 * j, -0.01 * i, height * std::sin(0.1 * i) * std::cos(0.07 * j));
     });
   };
   CHECK(count_crossings(waving(0), Tears(lattice), none_tested).complete);
   CHECK(count_crossings(waving(0.05), Tears(lattice), none_tested).complete);
-  const auto folded = shaped(
+  const auto folded = test::shaped(
       lattice, [](int i, int j) { return glm::dvec3(0.01 * std::abs(j - 64), -0.01 * i, 1e-3 * std::max(j - 64, 0)); });
   CHECK_FALSE(count_crossings(folded, Tears(lattice), none_tested).complete);
   CHECK(count_crossings(folded, Tears(lattice)).pairs == 0);
@@ -112,7 +98,7 @@ TEST_CASE("the search finds what a look at all pairs finds: crumpled, folded, ro
   test::Random random(5);
   for (const double noise : {0.03, 0.4, 0.8, 2.0}) {
     CAPTURE(noise);
-    const auto crumpled = shaped(lattice, [&](int i, int j) {
+    const auto crumpled = test::shaped(lattice, [&](int i, int j) {
       const auto moved = [&] { return random.uniform(-noise, noise); };
       return glm::dvec3(j + moved(), -i + moved(), moved());
     });
@@ -123,11 +109,11 @@ TEST_CASE("the search finds what a look at all pairs finds: crumpled, folded, ro
     check_same(crumpled, tears);
   }
   // Folded in a plane: layers lie exactly on each other.
-  const auto folded = shaped(lattice, [](int i, int j) { return glm::dvec3(std::abs(j % 8 - 4), -i, 0); });
+  const auto folded = test::shaped(lattice, [](int i, int j) { return glm::dvec3(std::abs(j % 8 - 4), -i, 0); });
   check_same(folded, Tears(lattice));
   CHECK(count_crossings(folded, Tears(lattice)).pairs > 1000);
   const auto rolled = [&](double radius) {
-    return shaped(lattice, [&](int i, int j) {
+    return test::shaped(lattice, [&](int i, int j) {
       const double turn = 0.8 * j;
       return glm::dvec3((1 + radius * turn) * std::cos(turn), (1 + radius * turn) * std::sin(turn), i);
     });
@@ -138,8 +124,8 @@ TEST_CASE("the search finds what a look at all pairs finds: crumpled, folded, ro
   CHECK(count_crossings(rolled(0.3), Tears(lattice)).pairs == 0);
   // All in one point, or on one line.
   const Lattice small{5, 6};
-  check_same(shaped(small, [](int, int) { return glm::dvec3(1, 2, 3); }), Tears(small));
-  check_same(shaped(small, [](int i, int) { return glm::dvec3(i, 2 * i, 3); }), Tears(small));
+  check_same(test::shaped(small, [](int, int) { return glm::dvec3(1, 2, 3); }), Tears(small));
+  check_same(test::shaped(small, [](int i, int) { return glm::dvec3(i, 2 * i, 3); }), Tears(small));
 }
 
 TEST_CASE("no block is taken for smooth in which a single corner is turned over") {
@@ -149,7 +135,7 @@ TEST_CASE("no block is taken for smooth in which a single corner is turned over"
   for (int n = 0; n < cloths; ++n) {
     const Lattice lattice{3 + random.below(4), 3 + random.below(4)};
     const double noise = random.uniform(0.2, 0.7), height = n % 2 == 0 ? 0 : noise;
-    const auto x = shaped(lattice, [&](int i, int j) {
+    const auto x = test::shaped(lattice, [&](int i, int j) {
       const double across = random.uniform(-noise, noise), down = random.uniform(-noise, noise);
       return glm::dvec3(j + across, -i + down, random.uniform(-height, height));
     });
@@ -164,7 +150,7 @@ TEST_CASE("no block is taken for smooth in which a single corner is turned over"
 
 /// A ribbon of two rows along x that turns back above itself, and goes down through its second quad.
 VectorField<double> through_itself(const Lattice& lattice) {
-  return shaped(lattice, [&](int i, int j) {
+  return test::shaped(lattice, [&](int i, int j) {
     const double along[] = {0, 1, 2, 3, 3.5, 2.5, 1.3, 1.3}, up[] = {0, 0, 0, 0, 1, 1.5, 0.6, -0.4};
     return glm::dvec3(along[j], up[j], (i + 0.1) * (j >= 5 ? 0.9 : 1));
   });
@@ -203,14 +189,14 @@ TEST_CASE("limits of the list and of the search") {
 
 TEST_CASE("threads have no triangles, and positions that are not finite no crossings") {
   const Lattice thread{9, 1}, lattice{2, 8};
-  CHECK(count_crossings(shaped(thread, [](int, int) { return glm::dvec3(0); }), Tears(thread)).pairs == 0);
+  CHECK(count_crossings(test::shaped(thread, [](int, int) { return glm::dvec3(0); }), Tears(thread)).pairs == 0);
   VectorField<double> x = through_itself(lattice);
   x.y[3] = std::nan("");
   CHECK(count_crossings(x, Tears(lattice)).pairs == 0);
   x.y[3] = HUGE_VAL;
   CHECK(count_crossings(x, Tears(lattice)).pairs == 0);
   // Differences that overflow.
-  x = shaped(lattice, [](int i, int j) { return 1.7e308 * glm::dvec3(j % 2 ? 1 : -1, i, 0); });
+  x = test::shaped(lattice, [](int i, int j) { return 1.7e308 * glm::dvec3(j % 2 ? 1 : -1, i, 0); });
   CHECK(count_crossings(x, Tears(lattice)).pairs > 0);
 }
 

@@ -35,6 +35,7 @@ void add_bench_throughput(CLI::App& bench, Action& action);
 void add_bench_accuracy(CLI::App& bench, Action& action);
 void add_bench_skip(CLI::App& bench, Action& action);
 void add_bench_implicit(CLI::App& bench, Action& action);
+void add_bench_contact(CLI::App& bench, Action& action);
 void add_bench_one_weight(CLI::App& bench, Action& action);
 void add_bench_convergence(CLI::App& bench, Action& action);
 void add_stability_boundary(CLI::App& stability, Action& action);

@@ -18,6 +18,7 @@ void add_bench_command(CLI::App& program, Action& action) {
   add_bench_accuracy(*bench, action);
   add_bench_skip(*bench, action);
   add_bench_implicit(*bench, action);
+  add_bench_contact(*bench, action);
   add_bench_one_weight(*bench, action);
   add_bench_convergence(*bench, action);
 }

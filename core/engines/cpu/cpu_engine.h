@@ -229,7 +229,6 @@ class CpuEngine final : public Engine, private GuardedSteps {
   double share_held() const;
   // Contact of the cloth with itself, on one thread (cpu_self.cpp).
   void begin_self(const Tears& tears);
-  void look_around(int vector, bool room);
   void find_near_force(const ResolvedSweep& sweep);
   bool end_self();
   void fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const;
@@ -283,9 +282,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
     explicit Self(const Lattice& lattice) : contact(lattice) {}
     SelfContact contact;
     double way = std::numeric_limits<double>::infinity();  ///< of particles since its list was looked at, m
-    std::vector<glm::dvec3> before, x, v, F;
-    bool looked = false;  ///< at the positions of the state
-    Field rows_before;    ///< positions at the beginning of the step
+    std::vector<glm::dvec3> x, v, F;                       ///< v: also positions at the beginning of the step, after it
+    bool looked = false;                                   ///< at the positions of the state
+    Field rows_before;                                     ///< positions at the beginning of the step
     Field force;
     std::int64_t held_back = 0, held_back_then = 0;  ///< by the guard; and as of the backup
   };

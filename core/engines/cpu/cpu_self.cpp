@@ -24,22 +24,15 @@ void CpuEngine<R, Present>::fetch(const Field& field, double scale, std::vector<
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_self(const Tears& tears) {
   if (self_ == nullptr) return;
-  if (self_->contact.stale(tears, self_->way)) {
+  const bool guards = guards_itself(cloth_.preset);
+  if (self_->contact.near() || self_->contact.stale(tears, self_->way)) {
     fetch(cloth_.vector(vector_x), 1, self_->x);
     self_->contact.follow(tears, self_->x);
     self_->way = 0;
   }
-  if (guards_itself(cloth_.preset)) self_->rows_before = cloth_.vector(vector_x);
-  self_->looked = false;
-  if (self_->contact.near()) look_around(vector_x, guards_itself(cloth_.preset));
-}
-
-/// Measures near pairs at the positions of a vector. `room`: at the beginning of a step.
-template <class R, unsigned Present>
-void CpuEngine<R, Present>::look_around(int vector, bool room) {
-  fetch(cloth_.vector(vector), 1, self_->x);
-  self_->contact.look(self_->x, room);
-  self_->looked = vector == vector_x;
+  if (guards) self_->rows_before = cloth_.vector(vector_x);
+  self_->looked = self_->contact.near();
+  if (self_->looked) self_->contact.look(self_->x, guards);
 }
 
 /// Before a sweep: the forces that it adds to those it computes.
@@ -49,7 +42,13 @@ void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
   if (self_ == nullptr || !self_->contact.near() || sweep.external) return;
   std::vector<glm::dvec3>& F = self_->F;
   // The first sweep of a step is at the positions that its beginning has looked at.
-  if (sweep.position != vector_x || !self_->looked) look_around(sweep.position, false);
+  if (sweep.position != vector_x || !self_->looked) {
+    fetch(cloth_.vector(sweep.position), 1, self_->x);
+    self_->contact.follow(self_->x);
+    self_->contact.look(self_->x);
+    self_->looked = false, self_->way = std::numeric_limits<double>::infinity();
+  }
+  if (!self_->contact.touches()) return;
   F.assign(self_->x.size(), glm::dvec3(0));
   self_->contact.add_forces(F);
   if (self_->contact.has_friction()) {
@@ -76,9 +75,11 @@ bool CpuEngine<R, Present>::end_self() {
   self_->way += way, self_->looked = false;
   if (!guards_itself(cloth_.preset) || way <= self_->contact.least_room()) return false;
   const int columns = cloth_.lattice.columns;
-  fetch(self_->rows_before, 1, self_->before);
+  std::vector<glm::dvec3>& before = self_->v;
+  fetch(self_->rows_before, 1, before);
   fetch(cloth_.vector(vector_x), 1, self_->x);
-  const auto held = self_->contact.hold_back(self_->before, self_->x, all_fixed_.empty());
+  const auto held = self_->contact.hold_back(before, self_->x, all_fixed_.empty());
+  self_->way = std::numeric_limits<double>::infinity();
   const glm::dvec3 common = self_->contact.common_way() * (cloth_.velocity_scale() / cloth_.dt);
   for (const auto [particle, part] : held) {
     const int i = particle / columns, j = particle % columns;
