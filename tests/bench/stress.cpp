@@ -80,8 +80,8 @@ class StressRun {
   double sweeps_of_a_step() const {
     const Preset& p = simulation_->preset();
     const Scheme& method = scheme(p.integrator);
-    const double contact = touches_itself(p) ? 300 : 0;
-    return double(method.sweeps.size()) + contact + (projects(method) ? p.iterations : 0);
+    const double contact = touches_itself(p) ? 300 : 0, parting = simulation_->tears().mesh() != nullptr ? 100 : 0;
+    return double(method.sweeps.size()) + contact + parting + (projects(method) ? p.iterations : 0);
   }
 
   /// How many steps of the present scene the case may still make.

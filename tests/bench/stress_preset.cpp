@@ -6,6 +6,7 @@
 
 #include "core/analysis/frequency.h"
 #include "core/contact/self_contact.h"
+#include "core/forces/force.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
@@ -109,6 +110,12 @@ void choose_self_contact(Preset& p, StressRandom& random) {
   p.thickness = random.chance(0.5) ? 0 : largest_thickness(p.L) * random.decades(0.01, 1);
 }
 
+/// Where springs tear, half of the cloths part.
+void choose_parting(Preset& p, StressRandom& random) {
+  const bool can = parts_cloth(scheme(p.integrator)) && p.self == "off" && !force::curl.on(p);
+  if (can && random.chance(0.5)) p.tearing = "split";
+}
+
 /// Round what the method can take, so that cases fall on both sides of it.
 void choose_dt(Preset& p, StressRandom& random) {
   const Mode fastest = any_configuration(p);
@@ -159,6 +166,7 @@ Preset random_preset(StressRandom& random, const std::string& integrator) {
   choose_self_contact(p, random);
   choose_dt(p, random);
   if (p.kind == Kind::cloth && random.chance(0.15)) tear_apart(p, random);
+  choose_parting(p, random);
   return p;
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/contact/self_contact.h"
+#include "core/forces/parted.h"
 #include "core/engines/newton.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
@@ -132,6 +133,9 @@ Preset preset_of(Random& random, bool with_opencl) {
   if (with_opencl && random.below(50) == 0 && runs_on_opencl(scheme(preset.integrator)) &&
       missing_on_opencl(preset) == nullptr)
     preset.engine = EngineKind::opencl;
+  if (preset.F_max > 0 && random.below(2) == 0 && preset.self == "off" && preset.engine == EngineKind::cpu &&
+      !force::curl.on(preset) && parts_cloth(scheme(preset.integrator)))
+    preset.tearing = "split";
   return preset;
 }
 
@@ -144,6 +148,7 @@ double visits_of_step(const Preset& p) {
   if (is_implicit(method)) sweeps *= 30 + max_gradient_steps({p.rows, p.columns});
   if (chooses_steps(method)) sweeps *= 1e4;
   if (p.self != "off") sweeps *= 1000;
+  if (parts(p)) sweeps *= 100;
   return particles * sweeps;
 }
 
@@ -159,7 +164,8 @@ double most_bytes(const RunCase& one) {
   const Preset& p = one.preset;
   if (p.kind == Kind::one_weight) return 0;
   // A few dozen numbers for each vector, spring and backup, and each row of text of the outputs.
-  const double particle = 6e3;
+  // Where the cloth parts, up to four of each, and their stencils.
+  const double particle = parts(p) ? 60e3 : 6e3;
   // Lists of what is near in a cloth that is pressed together.
   const double pairs = p.self != "off" ? 2e4 : 0;
   // The band of a factorized system: three numbers a particle, and two rows of particles on one side.
