@@ -532,8 +532,7 @@ std::size_t CpuEngine<R, Present>::bytes() const {
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
   if (self_ == nullptr) return total;
-  for (const auto* list : {&self_->x, &self_->v, &self_->F})
-    total += list->capacity() * sizeof(glm::dvec3);
+  for (const auto* list : {&self_->x, &self_->v, &self_->F}) total += list->capacity() * sizeof(glm::dvec3);
   return total + self_->contact.bytes() + self_->rows_before.bytes() + self_->force.bytes();
 }
 
