@@ -42,10 +42,11 @@ void SelfContact::look(Vectors x, bool begins_step) {
   pairs_.measure(d_, x, [&](const std::array<int, 4>& at, const Gap& gap, double distance) {
     nearest = std::min(nearest, distance);
     if (distance == 0) return;
-    // There are many: memory grows by less than a vector's own way.
+    // There can be many: memory grows less than a vector's own way, and is given back.
     if (touches_.size() == touches_.capacity()) touches_.reserve(touches_.size() + touches_.size() / 4 + 16);
     touches_.push_back({at, gap.weights, gap.between / distance, d_ - distance});
   });
+  if (touches_.capacity() > 2 * touches_.size() + 64) touches_.shrink_to_fit();
   if (begins_step) nearest_ = nearest;
 }
 

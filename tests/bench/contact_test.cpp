@@ -46,7 +46,7 @@ TEST_CASE("the hash grid of bench contact finds as many pairs as the lists, and 
       std::int64_t pairs = 0;
       lists.measure(below, x, [&](const auto&, const Gap&, double) { ++pairs; });
       CHECK(pairs == pairs_by_hash_grid(x, pile.lattice(), below));
-      if (look == 3) CHECK(pairs > pile.lattice().size() / 10);
+      if (look == 3 && below > 0.3 * preset.L) CHECK(pairs > pile.lattice().size() / 10);
     }
   }
   CHECK_FALSE(pile.divergence());

@@ -148,7 +148,8 @@ TEST_CASE("2: the command line is wrong, --set included") {
         "'shwo' is not one of its commands: show, notation, check. Did you mean 'show'?"},
        {{"bench", "nonsense"},
         2,
-        "tyglab: bench: 'nonsense' is not one of its commands: throughput, accuracy, skip, implicit, contact, one-weight"},
+        "tyglab: bench: 'nonsense' is not one of its commands: throughput, accuracy, skip, implicit, contact, "
+        "one-weight"},
        {{"bench", "accuracy", "--scene", "tsunami"}, 2, "no such scene; known: one_weight, hanging"},
        {{"bench", "one-weight", "--set", "kind=cloth"}, 2, "mass on a spring"},
        {{"bench", "one-weight", "--set", "dt=1e-6", "--seconds", "100"}, 2, "--seconds"},

@@ -536,8 +536,7 @@ std::size_t CpuEngine<R, Present>::bytes() const {
   total += loose_.springs.capacity() * sizeof(typename Loose::Spring) +
            loose_.others.capacity() * sizeof(LooseStencil) + loose_.force.bytes();
   if (self_ == nullptr) return total;
-  for (const auto* list : {&self_->x, &self_->v, &self_->F})
-    total += list->capacity() * sizeof(glm::dvec3);
+  for (const auto* list : {&self_->x, &self_->v, &self_->F}) total += list->capacity() * sizeof(glm::dvec3);
   return total + self_->contact.bytes() + self_->rows_before.bytes() + self_->force.bytes();
 }
 
