@@ -393,7 +393,7 @@ void Simulation::restart_untouched(const Preset& next) {
 }
 
 void Simulation::grab(const edit::Grab& e) {
-  if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j) || pinned(e.i, e.j)) return;
+  if (preset_.kind != Kind::cloth || !has(e.i, e.j) || pinned(e.i, e.j)) return;
   hold({e.i * lattice_.columns + e.j, {0, 0, 0}});
   hand_steps_left_ = 0;
   hand_force_ = {};
@@ -491,7 +491,7 @@ int Simulation::part_overloaded() {
 }
 
 void Simulation::pin(const edit::Pin& e) {
-  if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
+  if (preset_.kind != Kind::cloth || !has(e.i, e.j)) return;
   // The preset says what is pinned, so that it can be saved: by a list from now on. It names sites, so all particles of
   // one are pinned or none is.
   const Pins::Site site = tears_.site(e.i * lattice_.columns + e.j);

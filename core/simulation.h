@@ -94,6 +94,8 @@ class Simulation {
   /// Position of one particle.
   glm::dvec3 position(int i, int j) const { return engine_->position(i, j); }
 
+  /// Whether there is a particle (i, j), of a site or a copy.
+  bool has(int i, int j) const { return lattice_.contains(i, j) && i * lattice_.columns + j < tears_.particles(); }
   bool pinned(int i, int j) const {
     assert(lattice_.contains(i, j));
     return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0;

@@ -1,6 +1,7 @@
 // Read-outs of a simulation: the whole state, the variables of table B.1 for one particle, sums over the cloth.
 
 #include <algorithm>
+#include <cassert>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -52,6 +53,7 @@ glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const ForcesAmong& 
 }
 
 ParticleReadout Simulation::particle(int i, int j) const {
+  assert(has(i, j));
   // Only what stands round it: to read a whole cloth takes longer than all the rest of a frame.
   constexpr int reach = Neighborhood::reach;
   Neighborhood near(i, j);

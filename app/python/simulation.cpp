@@ -109,7 +109,7 @@ class Motion {
     if (std::abs(value) > most) throw py::value_error(std::string(what) + " must be below 3.4e38 in float");
   }
   void check(int i, int j) const {
-    if (!at_rest().lattice().contains(i, j))
+    if (!at_rest().has(i, j))
       throw py::index_error("there is no particle (" + std::to_string(i) + ", " + std::to_string(j) + ")");
   }
 

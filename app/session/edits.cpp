@@ -155,10 +155,9 @@ HistoryEntry motion_entry(Session& session, std::string what) {
 
 void follow_up(Session& session, const Preset& before, EffectSet effects) {
   const Preset& now = session.preset();
-  const Lattice& lattice = session.simulation->lattice();
   // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
   if (session.picked && before.L != now.L) session.picked = site_in_resolution(*session.picked, before, now);
-  if (session.picked && !lattice.contains(session.picked->i, session.picked->j)) session.picked.reset();
+  if (session.picked && !session.simulation->has(session.picked->i, session.picked->j)) session.picked.reset();
   if (effects.touches(Effect::rebuild)) {
     ++session.counts.lattices;
     session.recorded.clear();

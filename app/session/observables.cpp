@@ -91,8 +91,7 @@ Known references_agreement(Session& session) {
 
 /// What table B.1 says of the picked particle.
 std::optional<ParticleReadout> picked_particle(const Session& session) {
-  if (!session.picked || !session.simulation->lattice().contains(session.picked->i, session.picked->j))
-    return std::nullopt;
+  if (!session.picked || !session.simulation->has(session.picked->i, session.picked->j)) return std::nullopt;
   return session.simulation->particle(session.picked->i, session.picked->j);
 }
 template <glm::dvec3 ParticleReadout::*vector>

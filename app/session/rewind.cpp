@@ -144,7 +144,7 @@ void StepInspector::update(const Session& session) {
   const bool there = session.picked && session.preset().kind == Kind::cloth && !simulation.divergence() &&
                      !session.rebuild.holds_present() && simulation.lattice().size() <= largest;
   if (!there) return drop();
-  assert(simulation.lattice().contains(session.picked->i, session.picked->j));
+  assert(simulation.has(session.picked->i, session.picked->j));
   const bool other = !trace_ || trace_->i != session.picked->i || trace_->j != session.picked->j;
   const bool moved = revision_ != simulation.revision();
   if (!other && (!moved || (session.pacing.playing && session.now < looked_ + moving_pause))) return;

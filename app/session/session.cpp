@@ -83,6 +83,8 @@ void Session::advance(double real_seconds, const SessionInput& input) {
     fall_back(*this, error.what());
   }
   watch_replay(*this);
+  // A copy of a cloth that parted may be gone: undone, or rewound.
+  if (picked && !simulation->has(picked->i, picked->j)) picked.reset();
   costs.add_steps(steps_made);
   sample(*this);
   watch_lab(*this);

@@ -44,7 +44,7 @@ std::optional<Pins::Site> site_under(Tools& tools, int tile, glm::vec2 at) {
   Tool::Rest& rest = tools.tool.rest;
   if (rest.at != at || rest.tile != tile || !(rest.camera == tools.scene.camera))
     rest = {at, tile, tools.scene.camera, nearest_of_all(tools, tile, at)};
-  if (!rest.site || !simulation.lattice().contains(rest.site->i, rest.site->j)) return std::nullopt;
+  if (!rest.site || !simulation.has(rest.site->i, rest.site->j)) return std::nullopt;
   const auto pixel =
       tools.scene.camera.project(simulation.position(rest.site->i, rest.site->j), tools.scene.viewport.size());
   if (!pixel || !(glm::distance(*pixel, at) <= pointer_reach(tools))) rest.site.reset();

@@ -17,6 +17,7 @@
 #include "core/output/obj.h"
 #include "core/output/state_csv.h"
 #include "core/simulation.h"
+#include "core/step_trace.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::parted_test {
@@ -363,6 +364,35 @@ TEST_CASE("files name copies by their sites, after all sites") {
   CHECK(lines("\nv ") == 27);
   CHECK(lines("\nvt ") == 27);
   CHECK(lines("\nf ") == 32);
+}
+
+TEST_CASE("read-outs and the look inside a step know the springs of copies, and the pairs of near layers") {
+  for (const bool near : {false, true})
+    for (const char* method : {"verlet", "rk4"}) {
+      Preset p = sheet(9, 9);
+      p.integrator = method;
+      if (near) p.tearing = "springs", p.self = "repel", p.initial_stretch = 0.3, p.pins.mode = Pins::Mode::none;
+      Simulation simulation(p, 1);
+      if (!near) simulation.apply(edit::CutSprings{{{0, 3, 4}, {0, 4, 4}, {0, 5, 4}}});
+      simulation.advance(near ? 3 : 200);
+      for (const int particle : {4 * 9 + 4, 3 * 9 + 3, near ? 40 : 82}) {
+        const int i = particle / 9, j = particle % 9;
+        REQUIRE(simulation.has(i, j));
+        const StepTrace trace = trace_step(simulation, i, j);
+        const glm::dvec3 a = simulation.particle(i, j).a, F = simulation.particle(i, j)["F"];
+        CHECK(glm::distance(a * p.m * simulation.tears().share(particle), F) < 1e-12);
+        glm::dvec3 sum{0};
+        for (const StencilForce& one : trace.stages.front().stencils) sum += one.F;
+        const glm::dvec3 layers = trace.stages.front().forces[force::self] + trace.stages.front().forces[force::slip];
+        CHECK(glm::distance(sum + layers, trace.stages.front().forces.F_int()) < 1e-12);
+        Simulation next(p, 1);
+        next.restore(simulation.snapshot());
+        next.advance(1);
+        CAPTURE(method);
+        CAPTURE(particle);
+        CHECK(glm::distance(trace.x_after, next.position(i, j)) < 1e-13);
+      }
+    }
 }
 
 TEST_CASE("what cannot part is refused, with the cure") {

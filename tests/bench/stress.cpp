@@ -131,7 +131,8 @@ class StressRun {
     if (!finite(state.x)) fail("a position is not finite after step " + std::to_string(simulation_->steps()));
     if (!finite(state.v)) fail("a velocity is not finite after step " + std::to_string(simulation_->steps()));
     const Lattice& lattice = simulation_->lattice();
-    const ParticleReadout p = simulation_->particle(random_.below(lattice.rows), random_.below(lattice.columns));
+    const int any = random_.below(simulation_->tears().particles());
+    const ParticleReadout p = simulation_->particle(any / lattice.columns, any % lattice.columns);
     if (!finite(p["F"]) || !finite(p.x) || !finite(p.v) || !finite(p.a)) fail("a particle's readout is not finite");
     if (!finite(simulation_->time())) fail("the time is not finite");
     const Energy energy = simulation_->energy().energy;

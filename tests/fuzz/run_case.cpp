@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "core/contact/self_contact.h"
-#include "core/forces/parted.h"
 #include "core/engines/newton.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/forces/parted.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"

@@ -149,7 +149,8 @@ Problem files_finding(const RunCase& one, const fs::path& folder, const Json& su
     if (problem) return problem;
   }
   if (auto problem = table_finding(folder / "state.csv", false, table)) return problem;
-  if (double(table.rows.size()) != double(summary["particles"])) return Finding{"file", "the state does not have all particles"};
+  if (double(table.rows.size()) != double(summary["particles"]))
+    return Finding{"file", "the state does not have all particles"};
   if (summary["status"] != "done") return {};
   return motion_finding(one, summary["steps"], table);
 }

@@ -26,7 +26,8 @@ std::optional<ImVec2> on_screen(const Ui& ui, int tile, glm::dvec3 world) {
 }
 
 std::optional<ImVec2> particle_on_screen(Ui& ui, int tile, Pins::Site site) {
-  return on_screen(ui, tile, cloth_in_tile(ui.scene, tile).position(site.i, site.j));
+  const Simulation& cloth = cloth_in_tile(ui.scene, tile);  // which may have parted elsewhere
+  return cloth.has(site.i, site.j) ? on_screen(ui, tile, cloth.position(site.i, site.j)) : std::nullopt;
 }
 
 namespace {
