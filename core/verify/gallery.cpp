@@ -14,6 +14,7 @@ std::span<const Topic> topics() {
   static const std::array all{
       Topic{"Motion", motion_cases()},       Topic{"Methods", method_cases()},  Topic{"Statics", statics_cases()},
       Topic{"Vibration", vibration_cases()}, Topic{"Bending", bending_cases()}, Topic{"Contact", contact_cases()},
+      Topic{"Tearing", tearing_cases()},
   };
   return all;
 }
@@ -88,7 +89,7 @@ Preset Trial::scene(Preset preset) const {
 
 void Trial::show(const Simulation& simulation) const {
   show(
-      simulation.lattice(), [&](int i, int j) { return simulation.position(i, j); },
+      simulation.lattice().sites(), [&](int i, int j) { return simulation.position(i, j); },
       [&](int i, int j) { return simulation.pinned(i, j); });
   outcome_.picture.bodies = simulation.bodies();
 }
