@@ -475,17 +475,9 @@ int Simulation::part_overloaded() {
   const State& state = read();
   std::vector<glm::dvec3> x;
   for (std::size_t n = 0; n < state.x.x.size(); ++n) x.emplace_back(state.x.x[n], state.x.y[n], state.x.z[n]);
-  // Springs near what is pinned or held do not tear, as they do not break.
-  std::vector<std::uint8_t> guarded(std::size_t(lattice_.sites().size()), 0);
-  const auto guard = [&](int particle) {
-    const Pins::Site at = tears_.site(particle);
-    for (int i = at.i - 1; i <= at.i + 1; ++i)
-      for (int j = at.j - 1; j <= at.j + 1; ++j)
-        if (lattice_.has_site(i, j)) guarded[std::size_t(i) * lattice_.columns + j] = 1;
-  };
-  for (const int particle : pinned_) guard(particle);
-  if (held_.particle >= 0) guard(held_.particle);
-  const std::vector<Opening> openings = openings_of_overload(preset_, tears_, x, guarded);
+  std::vector<int> fixed = pinned_;
+  if (held_.particle >= 0) fixed.push_back(held_.particle);
+  const std::vector<Opening> openings = openings_of_overload(preset_, tears_, x, guarded_sites(tears_, fixed));
   part(openings);
   return int(openings.size());
 }

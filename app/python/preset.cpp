@@ -33,6 +33,11 @@ py::dict as_dict(const Preset& preset) {
 py::object constant(const Preset& preset, const std::string& key) {
   const py::dict all = as_dict(preset);
   if (all.contains(key)) return all[key.c_str()];
+  if (const PresetRow* row = find_row(key); row != nullptr && all.contains(py::str(std::string(row->section)))) {
+    const py::dict block = all[py::str(std::string(row->section))];
+    const py::str inner(std::string(row->key_in_section()));
+    if (block.contains(inner)) return block[inner];
+  }
   for (const auto& [name, block] : all)
     if (py::isinstance<py::dict>(block) && block.contains(key)) return block[key.c_str()];
   // One that is left out is as that one.

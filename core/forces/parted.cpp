@@ -242,6 +242,19 @@ Division hardest(const Preset& preset, const Mesh& mesh, const Puller& pulls, in
 
 }  // namespace
 
+std::vector<std::uint8_t> guarded_sites(const Tears& tears, std::span<const int> particles) {
+  const Lattice sites = tears.lattice().sites();
+  std::vector<std::uint8_t> guarded(std::size_t(sites.size()), 0);
+  for (const int particle : particles) {
+    if (particle >= tears.particles()) continue;
+    const Pins::Site at = tears.site(particle);
+    for (int i = at.i - 1; i <= at.i + 1; ++i)
+      for (int j = at.j - 1; j <= at.j + 1; ++j)
+        if (sites.contains(i, j)) guarded[std::size_t(i * sites.columns + j)] = 1;
+  }
+  return guarded;
+}
+
 bool overload_parts(const Tears& tears, const std::vector<std::uint8_t>& guarded, int a, int b) {
   const Mesh* mesh = tears.mesh();
   const auto site = [&](int particle) { return mesh != nullptr ? mesh->site(particle) : particle; };

@@ -59,9 +59,11 @@ struct Opening {
   int particle;
   unsigned cells;
 };
+/// A mask of the sites round these particles, up to the next row and column: springs there do not tear.
+std::vector<std::uint8_t> guarded_sites(const Tears& tears, std::span<const int> particles);
 /// Where springs whose F_s exceeds F_max part the cloth at positions x (m): of the particles at their ends the one at
 /// which two groups of cells pull apart hardest, by the length of the cut between them (N/m); one opening a site, in
-/// the order of the sites. `guarded(site)`: it does not part.
+/// the order of the sites. `guarded`: sites that do not part; empty: none.
 std::vector<Opening> openings_of_overload(const Preset& preset, const Tears& tears, std::span<const glm::dvec3> x,
                                           const std::vector<std::uint8_t>& guarded);
 /// Whether such a spring can part the cloth: one of its ends has cells to part, and none is guarded.

@@ -51,6 +51,22 @@ class Presets(unittest.TestCase):
         for key in tyglab.Preset.keys():
             if key not in ("device",):
                 preset[key]
+        preset["tearing.mode"] = "split"
+        self.assertEqual((preset["mode"], preset["tearing.mode"]), (1, "split"))
+
+    def test_a_cloth_that_parts(self):
+        preset = tyglab.Preset(rows=9, columns=9)
+        preset["tearing.mode"] = "split"
+        simulation = tyglab.Simulation(preset)
+        simulation.run(0.2)
+        simulation.cut([(4, 3), (4, 4), (4, 5)])
+        simulation.run(0.2)
+        self.assertEqual(simulation.positions.shape, (9, 9, 3))
+        self.assertEqual(len(simulation.copies), simulation.torn)
+        self.assertGreater(simulation.torn, 0)
+        site, x, v = simulation.copies[0]
+        self.assertEqual(site[0], 4)
+        self.assertEqual((len(x), len(v)), (3, 3))
 
     def test_a_wrong_one_is_named_and_changes_nothing(self):
         preset = tyglab.Preset()

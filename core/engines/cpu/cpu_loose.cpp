@@ -117,13 +117,17 @@ template <class R, unsigned Present>
 double CpuEngine<R, Present>::loose_slack(const Tears& tears) const {
   const Preset& p = cloth_.preset;
   double slack = std::numeric_limits<double>::infinity();
+  if (loose_.springs.empty()) return slack;
+  // Guards stand round what is fixed in the lattice; a copy in the hand has its own.
+  std::vector<std::uint8_t> guards = guards_;
+  if (cloth_.held.particle >= cloth_.lattice.sites().size()) guards = guarded_sites(tears, all_fixed_);
   const auto place = [&](int particle) {
     const int i = particle / cloth_.lattice.columns, j = particle % cloth_.lattice.columns;
     return glm::dvec3(cloth_.row(vector_x, i, 0)[j], cloth_.row(vector_x, i, 1)[j], cloth_.row(vector_x, i, 2)[j]);
   };
   for (const auto& spring : loose_.springs) {
     const int a = loose_.particles[std::size_t(spring.a)], b = loose_.particles[std::size_t(spring.b)];
-    if (spring.sign < 0 || !overload_parts(tears, guards_, a, b)) continue;
+    if (spring.sign < 0 || !overload_parts(tears, guards, a, b)) continue;
     // A half is overloaded as its whole is.
     const double k = spring_constant(p, directions[std::size_t(spring.direction)]);
     slack = std::min(slack, std::max(p.F_max / k - (glm::distance(place(a), place(b)) - spring.rest), 0.0));

@@ -135,13 +135,10 @@ void Cloth::collide(const Vector& x_before, const Vector& v_before, double t) {
 
 double Cloth::tear_overloaded(Tears& tears) const {
   const Lattice& lattice = tears.lattice();
-  std::vector<std::uint8_t> guards(std::size_t(lattice.size()), 0);
-  for (int i = 0; i < lattice.rows - lattice.copy_rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j)
-      for (int di = -1; di <= 1; ++di)
-        for (int dj = -1; dj <= 1; ++dj)
-          if (lattice.has_site(i + di, j + dj) && fixed[std::size_t((i + di) * lattice.columns + j + dj)] != 0)
-            guards[std::size_t(i * lattice.columns + j)] = 1;
+  std::vector<int> still;
+  for (std::size_t n = 0; n < fixed.size(); ++n)
+    if (fixed[n] != 0) still.push_back(int(n));
+  const std::vector<std::uint8_t> guards = guarded_sites(tears, still);
   const auto guarded = [&](int i, int j) { return guards[std::size_t(i * lattice.columns + j)] != 0; };
   double slack = std::numeric_limits<double>::infinity();
   for (const LooseStencil& loose : loose_stencils(preset, tears)) {
