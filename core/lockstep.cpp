@@ -174,21 +174,22 @@ std::size_t Lockstep::bytes() const {
 }
 
 double rms_distance(Simulation& cloth, Simulation& from) {
-  if (cloth.lattice() != from.lattice() || cloth.divergence() || from.divergence())
+  const Lattice sites = cloth.lattice().sites();  // copies of two cloths are no pairs
+  if (sites != from.lattice().sites() || cloth.divergence() || from.divergence())
     return std::numeric_limits<double>::quiet_NaN();
-  return rms_distance(cloth.read(), from.read(), from.time() - cloth.time());
+  return rms_distance(cloth.read(), from.read(), std::size_t(sites.size()), from.time() - cloth.time());
 }
 
-double rms_distance(const State& cloth, const State& from, double ahead) {
+double rms_distance(const State& cloth, const State& from, std::size_t particles, double ahead) {
   double sum = 0;
   for (const auto component : {&VectorField<double>::x, &VectorField<double>::y, &VectorField<double>::z}) {
     const auto &x = cloth.x.*component, &v = cloth.v.*component, &other = from.x.*component;
-    for (std::size_t p = 0; p < x.size(); ++p) {
+    for (std::size_t p = 0; p < particles; ++p) {
       const double apart = x[p] + ahead * v[p] - other[p];
       sum += apart * apart;
     }
   }
-  return std::sqrt(sum / double(from.x.x.size()));
+  return std::sqrt(sum / double(particles));
 }
 
 }  // namespace tyglab

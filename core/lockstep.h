@@ -79,7 +79,8 @@ class Lockstep {
 /// if a cloth has diverged or the lattices differ.
 double rms_distance(Simulation& cloth, Simulation& from);
 /// This distance between two states of one lattice, the first extrapolated by `ahead` seconds.
-double rms_distance(const State& cloth, const State& from, double ahead = 0);
+/// `particles`: the first of them alone.
+double rms_distance(const State& cloth, const State& from, std::size_t particles, double ahead = 0);
 
 /// The constants of a copy: the original's with the differences. Throws PresetError.
 Preset copied_preset(const Preset& original, std::span<const Difference> differences);

@@ -93,6 +93,11 @@ MovingPins::MovingPins(const Preset& preset, const Tears& tears, std::span<const
       }
 }
 
+void MovingPins::copy(int particle, int copy) {
+  const auto pin = std::find_if(pins_.begin(), pins_.end(), [&](const Pin& one) { return one.particle == particle; });
+  if (pin != pins_.end()) pins_.push_back({copy, pin->motion, glm::dvec3(pin->home)});
+}
+
 std::vector<DrivenPin> MovingPins::in(const PinSpan& span, const std::vector<Pins::Motion>& motions, double since,
                                       double dt) const {
   assert(span.begin < span.end && dt > 0);

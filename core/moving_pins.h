@@ -29,6 +29,8 @@ class MovingPins {
   MovingPins(const Preset& preset, const Tears& tears, std::span<const int> pinned,
              const std::function<glm::dvec3(int)>& x_of, double t);
   bool empty() const { return pins_.empty(); }
+  /// Another particle moves as one that moves.
+  void copy(int particle, int copy);
   std::size_t bytes() const { return pins_.capacity() * sizeof(Pin); }
   /// Where they are when that span of steps begins, and their velocities in it. `motions`: those that they were made
   /// with.

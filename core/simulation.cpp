@@ -157,7 +157,7 @@ void Simulation::build(const Preset& next) {
   tears_ = Tears(lattice_);
   pinned_mask_ = pinned_particles(next);
   pinned_ = particles_in(pinned_mask_);
-  engine_ = made_engine(next, {pinned_, {}}, start_rows(next), tears_, 0);
+  engine_ = made_engine(in_gusts(next, 0), {pinned_, {}}, start_rows(next), tears_, 0);
   preset_ = next, effective_preset_ = in_gusts(next, 0);
   moving_pins_ = moving_pins(preset_, pinned_);
   untouched_ = true;
@@ -171,10 +171,11 @@ void Simulation::take(Simulation& other) noexcept {
   revision_ = revision + 2, tear_revision_ = tear_revision + 1, state_revision_ = ~0ull;
 }
 
-/// An engine for these constants with that state, at time t, s. Throws EngineError; the present engine goes on then.
-std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Fixed& fixed, const StateRows& rows,
+/// An engine for these constants, with the wind as it blows then, with that state, at time t, s. Throws EngineError;
+/// the present engine goes on then.
+std::unique_ptr<Engine> Simulation::made_engine(const Preset& acts, const Fixed& fixed, const StateRows& rows,
                                                 const Tears& tears, double t) const {
-  auto engine = make_engine(in_gusts(next, t), tears.lattice(), threads_);
+  auto engine = make_engine(acts, tears.lattice(), threads_);
   engine->stop_when(stop_), engine->limit_steps(step_limit_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(with_absent(fixed.pinned, tears), fixed.held);
@@ -303,7 +304,7 @@ void Simulation::check_tears(const Preset& next) const {
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {
-  engine_ = made_engine(next, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
+  engine_ = made_engine(in_gusts(next, time()), {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   if (next.dt != preset_.dt) rebase_time();
   preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
 }
@@ -383,7 +384,7 @@ void Simulation::restart_untouched(const Preset& next) {
   const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
   const Fixed fixed{particles_in(pinned_mask), held};
   driven_.clear();
-  engine_ = made_engine(next, fixed, copied_rows(start_rows(next), tears_), tears_, time());
+  engine_ = made_engine(in_gusts(next, time()), fixed, copied_rows(start_rows(next), tears_), tears_, time());
   preset_ = next, effective_preset_ = in_gusts(next, time()), pushed_until_.reset();
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
@@ -454,19 +455,22 @@ void Simulation::part(const std::vector<Opening>& openings) {
     copy_particle(state, n < mesh->particles() ? openings[std::size_t(n - before)].particle : 0, n);
   std::vector<std::uint8_t> pinned_mask = pins_of(preset_, tears);
   std::vector<int> pinned = particles_in(pinned_mask);
-  std::unique_ptr<Engine> engine;
+  MovingPins moving = moving_pins_;
+  for (int n = before; n < mesh->particles(); ++n) moving.copy(openings[std::size_t(n - before)].particle, n);
   if (next != lattice_) {
-    engine = made_engine(acting(), {pinned, held_}, rows_of(state, next.columns), tears, time());
+    auto engine = made_engine(acting(), {pinned, held_}, rows_of(state, next.columns), tears, time());
+    engine->continue_counts(engine_->inner_steps());
+    engine_ = std::move(engine);
   } else {
-    engine_->set_fixed(with_absent(pinned, tears), held_);
+    const std::vector<int> all = with_absent(pinned, tears);
+    engine_->prepare(all.size());
+    engine_->set_fixed(all, held_);
     engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
     engine_->load(state, tears);
   }
-  if (engine) engine_ = std::move(engine);
   lattice_ = next, tears_ = std::move(tears);
   pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
-  driven_.clear();
-  moving_pins_ = moving_pins(preset_, pinned_);
+  driven_.clear(), moving_pins_ = std::move(moving);
   ++tear_revision_, ++revision_;
 }
 
@@ -589,10 +593,8 @@ AdvanceResult Simulation::advance_part(int steps) {
   if (held_.particle >= 0) hand_force_ = part.hand_force;
   if (part.diverged) diverge(part);
   if (watch_ && part.steps > 0 && !splits) watch_step(acting());
-  if (part.overloaded) {
-    part.torn += part_overloaded();
-    watch_edit(Ledger::Source::tearing);
-  }
+  if (part.overloaded)
+    if (const int more = part_overloaded(); more > 0) part.torn += more, watch_edit(Ledger::Source::tearing);
   part.diverged = divergence_.has_value();
   if (part.released) release(), watch_edit(Ledger::Source::hand);
   if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {
@@ -690,6 +692,7 @@ void Simulation::restore(const Snapshot& then) {
   if (watch_) energy();
   if (other) {
     other->stop_when(stop_), other->limit_steps(step_limit_), other->note_contacts(watch_.has_value());
+    other->prepare(with_absent(pinned, tears).size());
     engine_ = std::move(other), lattice_ = then.lattice;
   } else if (gusts(preset_) || pushed_until_) {
     engine_->set_preset(gusty, tears_);

@@ -97,7 +97,7 @@ class Simulation {
   /// Whether there is a particle (i, j), of a site or a copy.
   bool has(int i, int j) const { return lattice_.contains(i, j) && i * lattice_.columns + j < tears_.particles(); }
   bool pinned(int i, int j) const {
-    assert(lattice_.contains(i, j));
+    assert(has(i, j));
     return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0;
   }
   std::optional<Pins::Site> held() const;
@@ -140,9 +140,10 @@ class Simulation {
   std::optional<LedgerReading> ledger() const;
 
   Snapshot snapshot();
-  /// Whether the cloth still has the lattice of the snapshot.
+  /// Whether the cloth still has the lattice of the snapshot, and tears by the rule of its tears.
   bool fits(const Snapshot& then) const {
-    return then.lattice.sites() == lattice_.sites() && then.kind == preset_.kind;
+    const bool same_rule = then.tears.untorn() || parts(then.of) == parts(preset_);
+    return then.lattice.sites() == lattice_.sites() && then.kind == preset_.kind && same_rule;
   }
   /// Returns to a snapshot that fits, with the present constants and pins. The hand releases, and a divergence is
   /// cleared.
@@ -179,7 +180,7 @@ class Simulation {
     std::vector<int> pinned;
     Held held;
   };
-  std::unique_ptr<Engine> made_engine(const Preset& next, const Fixed& fixed, const StateRows& rows, const Tears& tears,
+  std::unique_ptr<Engine> made_engine(const Preset& acts, const Fixed& fixed, const StateRows& rows, const Tears& tears,
                                       double t) const;
   /// The present constants: those of the preset, with the present wind.
   const Preset& acting() const { return gusts(preset_) || pushed_until_ ? effective_preset_ : preset_; }
@@ -188,9 +189,7 @@ class Simulation {
   void check_tears(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins();
-  ForcesAmong forces_among_stored() const;
-  glm::dvec3 velocity_at(const Neighborhood& near, const ForcesAmong& among, const StoredParticle& stored, int i,
-                         int j) const;
+  glm::dvec3 velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const;
   void change(const Preset& preset);
   void restart_untouched(const Preset& preset);
   void grab(const edit::Grab& edit);

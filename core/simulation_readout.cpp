@@ -27,29 +27,11 @@ State Simulation::read_raw() {
   return state;
 }
 
-/// Forces that no stencil of the lattice tells (readout.h), at the present positions.
-ForcesAmong Simulation::forces_among_stored() const {
-  if (!force::self.on(acting()) && tears_.mesh() == nullptr) return {};
-  State all;
-  all.x.resize(std::size_t(lattice_.size())), all.v.resize(std::size_t(lattice_.size()));
-  for (int i = 0; i < lattice_.rows; ++i)
-    for (int j = 0; j < lattice_.columns; ++j) {
-      const StoredParticle stored = engine_->stored(i, j);
-      const std::size_t p = std::size_t(i) * lattice_.columns + std::size_t(j);
-      all.x.x[p] = stored.x.x, all.x.y[p] = stored.x.y, all.x.z[p] = stored.x.z;
-      all.v.x[p] = stored.v_seen.x, all.v.y[p] = stored.v_seen.y, all.v.z[p] = stored.v_seen.z;
-    }
-  return tyglab::forces_among(acting(), tears_, all);
-}
-
 /// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
-glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const ForcesAmong& among, const StoredParticle& stored,
-                                   int i, int j) const {
+glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const {
   if (stored.lag == 0 || pinned(i, j) || held_.particle == i * lattice_.columns + j) return stored.v;
-  ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
-  among.add_to(forces, std::size_t(i) * lattice_.columns + std::size_t(j));
-  const double m = preset_.m * tears_.share(i * lattice_.columns + j);
-  return stored.v + stored.lag / m * (forces.F_int() + forces.F_ext());
+  const ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
+  return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
 }
 
 ParticleReadout Simulation::particle(int i, int j) const {
@@ -61,16 +43,28 @@ ParticleReadout Simulation::particle(int i, int j) const {
     for (int ni = std::max(i - far, 0); ni <= std::min(i + far, lattice_.rows - 1); ++ni)
       for (int nj = std::max(j - far, 0); nj <= std::min(j + far, lattice_.columns - 1); ++nj) what(ni, nj);
   };
-  visit(reach, [&](int ni, int nj) {
-    const StoredParticle stored = engine_->stored(ni, nj);
-    near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
-  });
-  Neighborhood now = near;
-  const ForcesAmong among = forces_among_stored();
-  visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, among, engine_->stored(ni, nj), ni, nj); });
-  ParticleForces forces = forces_on_particle(acting(), tears_, now, i, j);
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
-  among.add_to(forces, p);
+  ParticleForces forces;
+  Neighborhood now = near;
+  if (tears_.mesh() == nullptr && !force::self.on(acting())) {
+    visit(reach, [&](int ni, int nj) {
+      const StoredParticle stored = engine_->stored(ni, nj);
+      near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
+    });
+    now = near;
+    visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
+    forces = forces_on_particle(acting(), tears_, now, i, j);
+  } else {
+    // What no stencil of the lattice tells may come from anywhere.
+    State all;
+    {
+      const std::lock_guard lock(*reading_);
+      engine_->read(all, tears_);
+    }
+    forces = forces_on_particle(acting(), tears_, all, i, j);
+    forces_among(acting(), tears_, all).add_to(forces, p);
+    now.x(i, j) = {all.x.x[p], all.x.y[p], all.x.z[p]}, now.v(i, j) = {all.v.x[p], all.v.y[p], all.v.z[p]};
+  }
   ParticleReadout out;
   out.forces = by_key(forces);
   out.pinned = pinned(i, j);

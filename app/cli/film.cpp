@@ -59,8 +59,8 @@ std::filesystem::path Film::shoot(Simulation& simulation, const std::filesystem:
   renderer_.update(simulation, options_);
   if (colors_) {
     std::vector<float> values;
-    read_field(colors_->field, simulation, nullptr, {simulation.lattice(), options_.every}, values);
-    const DrawnSites sites{simulation.lattice(), options_.every};
+    const DrawnSites sites = drawn_sites(simulation, options_.every);
+    read_field(colors_->field, simulation, nullptr, sites, values);
     renderer_.set_values(values, sites.rows(), sites.columns());
     colors_->look(span_of(values), simulation.preset());
     options_.colored = colors_->range();

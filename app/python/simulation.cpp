@@ -78,12 +78,16 @@ class Motion {
     follow();
   }
   void restore(const Snapshot& then) {
-    if (!at_rest().fits(then)) throw py::value_error("the snapshot belongs to a cloth with other rows or columns");
+    if (!at_rest().fits(then))
+      throw py::value_error(
+          "the snapshot belongs to a cloth with other rows or columns, or torn by the other tearing.mode");
     at_rest().restore(then);
     follow();
   }
   void load(const py::array_t<double, py::array::c_style | py::array::forcecast>& x,
             const py::array_t<double, py::array::c_style | py::array::forcecast>& v) {
+    if (at_rest().tears().mesh() != nullptr)
+      throw py::value_error("the cloth has parted, and load() knows no copies; use restore() of a snapshot");
     State state = at_rest().read();
     take(x, "positions", state.x);
     take(v, "velocities", state.v);

@@ -40,7 +40,7 @@ void ClothColors::update(Scene& scene, int tile, int every) {
   if (now == picture.of || scene.session.rebuild.holds_present()) return;  // then another thread reads the cloth
   const FrameCosts::Timer timer(scene.session.costs, Part::colors);
   picture.of = std::move(now);
-  picture.sites = {cloth.lattice(), every};
+  picture.sites = drawn_sites(cloth, every);
   read_field(chosen->field, cloth, reference, picture.sites, picture.values);
   picture.version = ++versions_;
   // Where another cloth shares the scale, what is left of one that has diverged would take all of it.

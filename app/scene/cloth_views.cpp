@@ -23,7 +23,7 @@ ViewOptions view_of(const Scene& scene, const Simulation& cloth, glm::ivec2 size
   view.line_width = scene.scale * 1.6f;
   view.point_size = scene.scale * 9;
   view.longest_edge = float(longest_drawn_edge(cloth));
-  view.every = drawn_every(cloth.lattice(), size.x, size.y);
+  view.every = drawn_every(cloth.lattice().sites(), size.x, size.y);
   return view;
 }
 
@@ -147,7 +147,7 @@ void ClothViews::draw(Scene& scene, glm::vec2 magnified) {
   copies_.resize(std::min(copies_.size(), scene.session.copies.lockstep.size()));
   if (shown_colors(scene) != nullptr)
     for (int tile = 0; tile < tiles; ++tile)
-      scene.colors.update(scene, tile, drawn_every(cloth_in_tile(scene, tile).lattice(), size.x, size.y));
+      scene.colors.update(scene, tile, drawn_every(cloth_in_tile(scene, tile).lattice().sites(), size.x, size.y));
   if (scene.renderer == nullptr) return;
   const bool ghosts_moved = take_ghosts(scene, size);
   if (size != size_) scene.effects.disturb();

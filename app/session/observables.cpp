@@ -133,8 +133,9 @@ Known distance_to_before(Session& session) {
   if (!run || run->step == 0) return std::nullopt;
   const auto& then = run->records[run->step - 1].outcome.state;
   const State& now = session.simulation->read();
-  if (!then || then->x.x.size() != now.x.x.size()) return std::nullopt;
-  return rms_distance(now, *then);
+  const auto sites = std::size_t(session.simulation->lattice().sites().size());
+  if (!then || std::min(then->x.x.size(), now.x.x.size()) < sites) return std::nullopt;
+  return rms_distance(now, *then, sites);
 }
 
 Known pinned_particles(Session& session) {

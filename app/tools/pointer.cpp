@@ -145,6 +145,7 @@ void pick_or_pin(Tools& tools, const PointerEvent& event) {
   Tool& tool = tools.tool;
   if (tool.second_press && tool.site && !pressed_long(tools, event.time)) {
     const auto [i, j] = *tool.site;
+    if (!tools.session.simulation->has(i, j)) return;  // a copy that another picture's cloth has
     apply_edit(tools.session, edit::Pin{i, j, !tools.session.simulation->pinned(i, j)});
     tool.last_site.reset();
     return;
@@ -244,9 +245,9 @@ float pointer_reach(const Tools& tools) {
 void handle_pointer(Tools& tools) {
   Tool& tool = tools.tool;
   // A cloth may have been rebuilt with fewer particles while one was held down.
-  const Lattice& lattice = cloth_in_tile(tools.scene, tool.tile).lattice();
+  const Simulation& cloth = cloth_in_tile(tools.scene, tool.tile);
   for (auto* site : {&tool.site, &tool.last_site})
-    if (*site && !lattice.contains((*site)->i, (*site)->j)) site->reset();
+    if (*site && !cloth.has((*site)->i, (*site)->j)) site->reset();
   for (const PointerEvent& event : tools.input.pointer) {
     const glm::vec2 at = event.at - tools.scene.viewport.origin(tool.tile);
     switch (event.type) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -104,7 +105,8 @@ Reference refined(const AccuracyScene& scene, double dt, const Stop& stop) {
 std::vector<glm::dvec3> positions_of(const Simulation& simulation) {
   const PositionView view = simulation.positions();
   std::vector<glm::dvec3> all;
-  for (int i = 0; i < view.rows; ++i)
+  // Two runs of a cloth that parts may have different copies: its sites alone are compared.
+  for (int i = 0; i < simulation.lattice().sites().rows; ++i)
     for (int j = 0; j < view.columns; ++j) all.push_back(view.at(i, j));
   return all;
 }
@@ -112,11 +114,13 @@ std::vector<glm::dvec3> positions_of(const Simulation& simulation) {
 double rms_distance(const Track& a, const Track& b) {
   double squares = 0;
   std::size_t count = 0;
-  for (std::size_t n = 0; n < a.size(); ++n)
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    assert(a[n].size() == b[n].size());
     for (std::size_t p = 0; p < a[n].size(); ++p, ++count) {
       const glm::dvec3 apart = a[n][p] - b[n][p];
       squares += glm::dot(apart, apart);
     }
+  }
   const double rms = std::sqrt(squares / double(std::max<std::size_t>(count, 1)));
   return std::isfinite(rms) ? rms : std::numeric_limits<double>::infinity();
 }

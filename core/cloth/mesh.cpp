@@ -12,13 +12,13 @@ std::vector<int> Mesh::parted_sites() const {
   return all;
 }
 
-unsigned Mesh::cells_at(int site) const {
-  const int i = site / sites_.columns, j = site % sites_.columns;
+unsigned Mesh::cells_at(const Lattice& sites, int site) {
+  const int i = site / sites.columns, j = site % sites.columns;
   unsigned cells = all_cells;
   if (i == 0) cells &= ~unsigned(up_left | up_right);
-  if (i + 1 == sites_.rows) cells &= ~unsigned(down_left | down_right);
+  if (i + 1 == sites.rows) cells &= ~unsigned(down_left | down_right);
   if (j == 0) cells &= ~unsigned(up_left | down_left);
-  if (j + 1 == sites_.columns) cells &= ~unsigned(up_right | down_right);
+  if (j + 1 == sites.columns) cells &= ~unsigned(up_right | down_right);
   return cells;
 }
 

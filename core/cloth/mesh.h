@@ -41,7 +41,8 @@ class Mesh {
   /// Sites that have parted, rising.
   std::vector<int> parted_sites() const;
   /// The cells at a site that exist.
-  unsigned cells_at(int site) const;
+  static unsigned cells_at(const Lattice& sites, int site);
+  unsigned cells_at(int site) const { return cells_at(sites_, site); }
   /// Those that hang on a particle.
   unsigned cells_of(int particle) const;
   /// The particle of a site on which one of its cells hangs, by the number of its bit.

@@ -200,6 +200,8 @@ class Engine {
   virtual std::int64_t held_back() const { return 0; }
   /// Work of a method that chooses its own steps within dt; all zero for others.
   virtual InnerSteps inner_steps() const = 0;
+  /// What another engine counted before it was replaced by this one.
+  virtual void continue_counts([[maybe_unused]] const InnerSteps& counts) {}
   /// The parts of a step that the present scene needs, and those that are skipped.
   virtual std::vector<StepFeature> features() const = 0;
   /// For display, such as "CPU, AVX2, 2 threads".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -91,6 +92,17 @@ bool within_bounds(const Preset& preset, const Lattice& lattice, const Tears& te
       slack = std::min(slack, growth_left(preset, lattice, tears, state, d, i, fault));
       if (slack < 0) return false;
     }
+  for (const LooseSpring& spring : loose_springs(tears, 0, int(directions.size()))) {
+    const Direction& to = directions[std::size_t(spring.spring.direction)];
+    glm::dvec3 apart{0};
+    for (int c = 0; c < 3; ++c)
+      apart[c] = double(state.x_row(spring.b / lattice.columns, c)[spring.b % lattice.columns]) -
+                 double(state.x_row(spring.a / lattice.columns, c)[spring.a % lattice.columns]);
+    const double length = glm::length(apart);
+    slack = std::min(slack, longest_factor * to.rest * preset.L - length);
+    fault = {spring.spring.i, spring.spring.j, "spring length", length, to.di, to.dj};
+    if (slack < 0) return false;
+  }
   divergence_budget = slack;
   return true;
 }

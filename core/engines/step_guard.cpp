@@ -100,7 +100,12 @@ void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudg
   spend_budgets();
   limit_ = limit_backup_;
   repeating_ = true;
-  engine.repeat(steps, tears);
+  try {
+    engine.repeat(steps, tears);
+  } catch (...) {
+    repeating_ = false;
+    throw;
+  }
   repeating_ = false;
   spend_budgets();
   limit_ = limit_backup_;  // whether or not the engine has judged them

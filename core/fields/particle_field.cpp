@@ -149,7 +149,9 @@ double speed_squared(const State& state, std::size_t p) {
 void read_distance(Simulation& cloth, Simulation& reference, const DrawnSites& sites, float* to) {
   const State &a = cloth.read(), &b = reference.read();
   const double ahead = &cloth == &reference ? 0 : reference.time() - cloth.time();
+  const auto all = std::size_t(cloth.lattice().sites().size());
   read_each(sites, to, [&](std::size_t p) {
+    if (p >= all) return std::numeric_limits<double>::quiet_NaN();  // copies of two cloths are no pairs
     const double x = a.x.x[p] + ahead * a.v.x[p] - b.x.x[p], y = a.x.y[p] + ahead * a.v.y[p] - b.x.y[p],
                  z = a.x.z[p] + ahead * a.v.z[p] - b.x.z[p];
     return std::sqrt(x * x + y * y + z * z);
@@ -188,8 +190,9 @@ std::optional<ParticleField> field_called(std::string_view name) {
   return std::nullopt;
 }
 
-void read_field(ParticleField field, Simulation& cloth, Simulation* reference, const DrawnSites& sites,
-                std::vector<float>& values) {
+namespace {
+void read_all(ParticleField field, Simulation& cloth, Simulation* reference, const DrawnSites& sites,
+              std::vector<float>& values) {
   values.resize(std::size_t(sites.rows()) * std::size_t(sites.columns()));
   const bool parted = cloth.tears().mesh() != nullptr && sites.every == 1;
   switch (field) {
@@ -209,10 +212,24 @@ void read_field(ParticleField field, Simulation& cloth, Simulation* reference, c
                        [&](std::size_t p) { return half * cloth.tears().share(int(p)) * speed_squared(state, p); });
     }
     case ParticleField::distance:
-      if (reference == nullptr || reference->lattice() != cloth.lattice())
+      if (reference == nullptr || reference->lattice().sites() != cloth.lattice().sites())
         return std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
       return read_distance(cloth, *reference, sites, values.data());
   }
+}
+
+}  // namespace
+
+DrawnSites drawn_sites(const Simulation& cloth, int every) {
+  return {every > 1 ? cloth.lattice().sites() : cloth.lattice(), every};
+}
+
+void read_field(ParticleField field, Simulation& cloth, Simulation* reference, const DrawnSites& sites,
+                std::vector<float>& values) {
+  read_all(field, cloth, reference, sites, values);
+  // Where there is no particle there is no value.
+  if (sites.every == 1 && sites.whole == cloth.lattice())
+    std::fill(values.begin() + cloth.tears().particles(), values.end(), std::numeric_limits<float>::quiet_NaN());
 }
 
 std::optional<FieldSpan> span_of(std::span<const float> values) {

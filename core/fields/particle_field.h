@@ -32,6 +32,10 @@ const FieldInfo& info(ParticleField field);
 /// The field of that name; none if there is none.
 std::optional<ParticleField> field_called(std::string_view name);
 
+/// The places at which a cloth has values to be drawn: every n-th row and column of its sites, or all particles, the
+/// copies of a cloth that has parted among them.
+DrawnSites drawn_sites(const Simulation& cloth, int every);
+
 /// Works out a field at each of the sites, row after row, with the formulas of the read-out: the largest F_s of the
 /// stretch springs at a particle (N, what F_max is compared with), their mean strain (below 0: shorter than at rest),
 /// speed |v| (m/s), m v²/2 (J), distance to the same particle of `reference` (m, at its time: carried there with the

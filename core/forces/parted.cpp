@@ -259,7 +259,10 @@ bool overload_parts(const Tears& tears, const std::vector<std::uint8_t>& guarded
   const Mesh* mesh = tears.mesh();
   const auto site = [&](int particle) { return mesh != nullptr ? mesh->site(particle) : particle; };
   if (!guarded.empty() && (guarded[std::size_t(site(a))] != 0 || guarded[std::size_t(site(b))] != 0)) return false;
-  const auto divides = [&](int particle) { return mesh == nullptr || std::popcount(mesh->cells_of(particle)) > 1; };
+  const Lattice sites = tears.lattice().sites();
+  const auto divides = [&](int particle) {
+    return std::popcount(mesh != nullptr ? mesh->cells_of(particle) : Mesh::cells_at(sites, particle)) > 1;
+  };
   return divides(a) || divides(b);
 }
 
@@ -402,9 +405,18 @@ std::vector<Opening> openings_of_path(const Tears& tears, std::span<const Pins::
     for (const Leg leg : all_legs)
       if (cutter.along(way[n], leg) == way[n + 1]) legs[way[n]] |= leg, legs[way[n + 1]] |= opposite(leg);
   // A touch of the knife cuts the springs above. The end of a longer way stays closed: a further way begins there.
-  if (way.size() == 1 && cutter.open_legs(way.front()) == 0) cutter.part(way.front(), left | right);
+  // Unless it leads out of the cloth.
+  const auto leads_out = [&](int site, unsigned cut) {
+    return std::any_of(all_legs.begin(), all_legs.end(),
+                       [&](Leg leg) { return (cut & leg) != 0 && !cutter.along(site, opposite(leg)); });
+  };
+  if (way.size() == 1) {
+    const unsigned open = cutter.open_legs(way.front());
+    if (open == 0 || leads_out(way.front(), open)) cutter.part(way.front(), open == 0 ? left | right : open);
+  }
   for (const auto& [site, cut] : legs)
-    if (site != way.back() || std::popcount(cut) > 1) cutter.part(site, straightened(cut | cutter.open_legs(site)));
+    if (site != way.back() || std::popcount(cut) > 1 || leads_out(site, cut))
+      cutter.part(site, straightened(cut | cutter.open_legs(site)));
   return cutter.openings();
 }
 

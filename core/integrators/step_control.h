@@ -49,6 +49,7 @@ class StepControl {
   bool judge(const TriedStep& tried);
   void count_evaluations(int more) { counts_.force_evaluations += more; }
   const InnerSteps& counts() const { return counts_; }
+  void continue_counts(const InnerSteps& counts) { counts_ = counts; }
 
  private:
   void count_accepted(const TriedStep& tried, bool met);

@@ -287,6 +287,62 @@ TEST_CASE("undo and replay return to the last bit, whatever has parted meanwhile
   CHECK(test::identical(simulation.read(), other.read()));
 }
 
+TEST_CASE("after a return, another cut with as many copies has its own springs, with every method") {
+  for (const char* method : {"verlet", "rk4", "semi_implicit_euler", "dopri5", "rkc2"}) {
+    Preset p = sheet(12, 12);
+    p.integrator = method, p.dt = 1e-4;
+    const auto cut = [](Simulation& simulation, int j) {
+      simulation.apply(edit::Cut{{{8, j}, {8, j + 1}, {8, j + 2}, {8, j + 3}}});
+    };
+    Simulation simulation(p, 1), other(p, 1);
+    for (Simulation* one : {&simulation, &other}) one->advance(20);
+    const Snapshot whole = simulation.snapshot();
+    cut(simulation, 3);
+    simulation.advance(1);
+    simulation.restore(whole);
+    cut(simulation, 6), cut(other, 6);
+    simulation.advance(200), other.advance(200);
+    CAPTURE(method);
+    CHECK(simulation.tears() == other.tears());
+    CHECK(test::identical(simulation.read(), other.read()));
+  }
+}
+
+TEST_CASE("a cut from border to border parts the cloth in two") {
+  for (const bool back : {false, true}) {
+    Preset p = test::cloth(9, 12);
+    p.tearing = "split", p.pins.mode = Pins::Mode::top_row;
+    Simulation simulation(p, 1);
+    simulation.advance(20);
+    std::vector<Pins::Site> path{{5, 0}, {5, 11}};
+    if (back) std::reverse(path.begin(), path.end());
+    simulation.apply(edit::Cut{path});
+    CHECK(simulation.tears().particles() == 9 * 12 + 12);
+    simulation.advance(500);
+    CHECK(simulation.position(8, 5).y < -0.5);
+  }
+}
+
+TEST_CASE("an opening leaves wind, moving pins and counts as they are") {
+  Preset p = sheet(10, 10);
+  p.W = {0, 0, 0.003}, p.gust = 0.9, p.gust_period = 20, p.k_b = 0, p.B = 0, p.air_density = 0,
+  p.pins.mode = Pins::Mode::top_row;
+  p.pins.motions = {{.mode = Pins::Mode::top_row, .path = {{0, {0, 0, 0}}, {1, {0.3, 0.1, 0.2}}}}};
+  p.integrator = "dopri5", p.dt = 1e-3, p.precision = Precision::float_;
+  Simulation cut(p, 1), whole(p, 1);
+  for (Simulation* one : {&cut, &whole}) one->advance(100);
+  cut.apply(edit::Cut{{{7, 2}, {7, 3}, {7, 4}}});
+  for (Simulation* one : {&cut, &whole}) one->advance(50);
+  CHECK(cut.engine().inner_steps().accepted > 140);
+  CHECK(cut.position(0, 0) == whole.position(0, 0));
+  const glm::dvec3 a = cut.particle(2, 8).forces["F_wind"], b = whole.particle(2, 8).forces["F_wind"];
+  CHECK(glm::distance(a, b) < 0.02 * glm::length(b));
+  cut.apply(edit::Cut{{{0, 5}, {1, 5}, {2, 5}}});
+  cut.advance(10), whole.advance(10);
+  for (int n = 100; n < cut.tears().particles(); ++n)
+    if (cut.pinned(n / 10, n % 10)) CHECK(cut.position(n / 10, n % 10) == whole.position(0, 5));
+}
+
 TEST_CASE("while nothing parts, the rule changes no bit") {
   Preset p = sheet(20, 16);
   p.F_max = 1e6;
@@ -407,7 +463,9 @@ TEST_CASE("what cannot part is refused, with the cure") {
   CHECK(check_preset(p).find("tearing.mode: implicit_euler does not part the cloth; methods that do: euler") == 0);
   p.integrator = "verlet", p.self = "repel";
   CHECK(check_preset(p).find("tearing.mode: split does not go with contact.self repel yet") == 0);
-  p.self = "off", p.tearing = "splits";
+  p.self = "off", p.columns = 1;
+  CHECK(check_preset(p).find("tearing.mode: a cloth that parts needs at least 2 columns") == 0);
+  p.columns = 5, p.tearing = "splits";
   CHECK(check_preset(p).find("tearing.mode: \"splits\" is not known; did you mean split?") == 0);
   p.tearing = "springs", p.F_max = 0.1;
   Simulation simulation(p, 1);
@@ -415,6 +473,7 @@ TEST_CASE("what cannot part is refused, with the cure") {
   p.tearing = "split";
   CHECK_THROWS_WITH_AS(simulation.apply(edit::Change{p}),
                        "tearing.mode: the cloth has torn by the rule springs; restart the scene first", PresetError);
+  CHECK_FALSE(Simulation(p, 1).fits(simulation.snapshot()));
 }
 
 }  // namespace tyglab::parted_test

@@ -264,6 +264,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, cloth_.bodies.front(), view(), 1));
   rows_ = Array<double>();
   forget_self();
+  loose_.known_torn = -1;  // it may have parted elsewhere
   set_synchronized(true);
   write_fixed_velocities();
   springs_changed_ = true;

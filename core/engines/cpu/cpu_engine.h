@@ -93,6 +93,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   double given_squared() const override { return guard_.given_squared(); }
   std::int64_t held_back() const override { return self_ != nullptr ? self_->held_back : 0; }
   InnerSteps inner_steps() const override { return control_.counts(); }
+  void continue_counts(const InnerSteps& counts) override { control_.continue_counts(counts); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
 
