@@ -134,7 +134,7 @@ Preset preset_of(Random& random, bool with_opencl) {
       missing_on_opencl(preset) == nullptr)
     preset.engine = EngineKind::opencl;
   if (preset.F_max > 0 && random.below(2) == 0 && preset.self == "off" && preset.engine == EngineKind::cpu &&
-      !force::curl.on(preset) && parts_cloth(scheme(preset.integrator)))
+      !force::curl.on(preset) && preset.columns > 1 && parts_cloth(scheme(preset.integrator)))
     preset.tearing = "split";
   return preset;
 }

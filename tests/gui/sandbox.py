@@ -28,7 +28,7 @@ class Sandbox:
         `settings`: more of the settings' file; `environment`: more variables."""
         self.screen = screen
         self.tyglab = tyglab
-        self.own = tempfile.TemporaryDirectory(prefix="tyglab-gui-")
+        self.own = tempfile.TemporaryDirectory(prefix="tyglab-gui-", ignore_cleanup_errors=True)
         self.config = config or os.path.join(self.own.name, "config")
         self.report_file = os.path.join(self.own.name, "report.json")
         self.errors = open(os.path.join(self.own.name, "stderr"), "w+")
