@@ -291,6 +291,7 @@ std::vector<Opening> openings_of_overload(const Preset& preset, const Tears& tea
   for (const LooseStencil& loose : loose_stencils(preset, tears))
     if (loose.force == &force::stretch) look(loose.at[0], loose.at[1], loose.stencil->spring[0].direction);
   std::vector<Opening> all;
+  all.reserve(at.size());
   for (const auto& [site, division] : at) all.push_back(division.opening);
   return all;
 }

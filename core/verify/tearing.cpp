@@ -47,6 +47,7 @@ void cut_piece(Trial& trial) {
     Simulation simulation = trial.start(preset);
     trial.advance(simulation, 1000);
     std::vector<SpringSite> across;
+    across.reserve(columns);
     for (int j = 0; j < columns; ++j) across.push_back({1, at, j});
     simulation.apply(edit::CutSprings{across});
     const auto below = [&](int n) {
@@ -56,7 +57,7 @@ void cut_piece(Trial& trial) {
     };
     const Sums before = sum_of(simulation, below);
     const double t = 0.25;
-    trial.advance(simulation, std::int64_t(t / preset.dt + 0.5));
+    trial.advance(simulation, std::llround(t / preset.dt));
     const Sums after = sum_of(simulation, below);
     const double exact = before.v.y / before.mass * t - g * t * t / 2;
     trial.compare(exact, (after.x.y - before.x.y) / before.mass, method);

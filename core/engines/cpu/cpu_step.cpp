@@ -48,10 +48,9 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   for (int j = begin; j < end; ++j) {
     if (!tears.whole(d, i, j) || guarded(i, j) || guarded(i + dir.di, j + dir.dj)) continue;
     const double r2 = distance2(view(), i, j, dir);
-    if (const bool over = HWY_NAMESPACE::stretch_tension(k, rest, r2) > cloth_.preset.F_max;
-        over && parts(cloth_.preset))
-      return std::numeric_limits<double>::infinity();
-    else if (over)
+    const bool over = HWY_NAMESPACE::stretch_tension(k, rest, r2) > cloth_.preset.F_max;
+    if (over && parts(cloth_.preset)) return std::numeric_limits<double>::infinity();
+    if (over)
       tears.tear(d, i, j);
     else
       left = std::max(left, r2);
