@@ -171,13 +171,19 @@ void Simulation::take(Simulation& other) noexcept {
   revision_ = revision + 2, tear_revision_ = tear_revision + 1, state_revision_ = ~0ull;
 }
 
+/// An engine for these constants without a state. Throws EngineError.
+std::unique_ptr<Engine> Simulation::bare_engine(const Preset& acts, const Lattice& lattice) const {
+  auto engine = make_engine(acts, lattice, threads_);
+  engine->stop_when(stop_), engine->limit_steps(step_limit_);
+  engine->note_contacts(watch_.has_value());
+  return engine;
+}
+
 /// An engine for these constants, with the wind as it blows then, with that state, at time t, s. Throws EngineError;
 /// the present engine goes on then.
 std::unique_ptr<Engine> Simulation::made_engine(const Preset& acts, const Fixed& fixed, const StateRows& rows,
                                                 const Tears& tears, double t) const {
-  auto engine = make_engine(acts, tears.lattice(), threads_);
-  engine->stop_when(stop_), engine->limit_steps(step_limit_);
-  engine->note_contacts(watch_.has_value());
+  auto engine = bare_engine(acts, tears.lattice());
   engine->set_fixed(with_absent(fixed.pinned, tears), fixed.held);
   engine->drive_pins(driven_, false);
   engine->next_step({t, 0});
@@ -685,14 +691,10 @@ void Simulation::restore(const Snapshot& then) {
     driven = moving.in(span, preset_.pins.motions, since, preset_.dt);
   }
   std::unique_ptr<Engine> other;
-  if (then.lattice != lattice_)
-    other = make_engine(gusty, then.lattice, threads_);
-  else
-    engine_->prepare(with_absent(pinned, tears).size());
+  if (then.lattice != lattice_) other = bare_engine(gusty, then.lattice);
+  (other ? *other : *engine_).prepare(with_absent(pinned, tears).size());
   if (watch_) energy();
   if (other) {
-    other->stop_when(stop_), other->limit_steps(step_limit_), other->note_contacts(watch_.has_value());
-    other->prepare(with_absent(pinned, tears).size());
     engine_ = std::move(other), lattice_ = then.lattice;
   } else if (gusts(preset_) || pushed_until_) {
     engine_->set_preset(gusty, tears_);

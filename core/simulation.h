@@ -180,6 +180,7 @@ class Simulation {
     std::vector<int> pinned;
     Held held;
   };
+  std::unique_ptr<Engine> bare_engine(const Preset& acts, const Lattice& lattice) const;
   std::unique_ptr<Engine> made_engine(const Preset& acts, const Fixed& fixed, const StateRows& rows, const Tears& tears,
                                       double t) const;
   /// The present constants: those of the preset, with the present wind.

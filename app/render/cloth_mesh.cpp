@@ -167,7 +167,8 @@ std::size_t ClothMesh::bytes() const {
   for (const gl::Buffer* buffer : {&position_buffer_, &normal_buffer_}) total += std::size_t(buffer->bytes());
   for (const IndexList& list : lists_)
     total += std::size_t(list.buffer.bytes()) + (list.texels ? list.texels->bytes() : 0);
-  return total + mapped_normals_.bytes() + written_.bytes() + position_texels_.bytes() + normal_texels_.bytes();
+  return total + mapped_normals_.bytes() + written_.bytes() + position_texels_.bytes() + normal_texels_.bytes() +
+         copy_sites_.bytes();
 }
 
 /// Copies a vector of every particle.

@@ -36,7 +36,7 @@ glm::vec3 position(const RowPointers& r, int j) {
   return {r.x[j], r.y[j], r.z[j]};
 }
 
-/// In a cloth that has parted: of the triangles in the cells that hang on the particle.
+/// In a cloth that has parted: of the triangles in the cells that are attached to the particle.
 glm::vec3 normal_from_cells(const FloatRows& p, const Mesh& mesh, int particle) {
   const int columns = mesh.sites().columns, site = mesh.site(particle);
   glm::vec3 sum(0);

@@ -1,9 +1,9 @@
-// The mesh of a cloth that has parted: its cells, and the particle on which each of their corners hangs.
+// The mesh of a cloth that has parted: its cells, and the particle to which each of their corners is attached.
 //
-// A cell is a quad of the lattice with its two triangles. In a whole cloth all cells at a site hang on the same
-// particle. Where the cloth parts, some of them get a particle of their own: a copy, with its share of the site's mass
-// and springs. A diagonal belongs to its cell, a spring along a row or a column half to the cell on either side of it,
-// or wholly to the only one. So no cell is lost, and parting changes neither mass nor energy.
+// A cell is a quad of the lattice with its two triangles. In a whole cloth all cells at a site are attached to the
+// same particle. Where the cloth parts, some of them get a particle of their own: a copy, with its share of the site's
+// mass and springs. A diagonal belongs to its cell, a spring along a row or a column half to the cell on either side of
+// it, or wholly to the only one. So no cell is lost, and parting changes neither mass nor energy.
 //
 // A particle is a number: i·columns + j for those of the sites, and larger ones for copies, in the order of their
 // origin.
@@ -36,16 +36,16 @@ class Mesh {
     assert(particle >= 0 && particle < particles());
     return particle < sites_.size() ? particle : site_of_[std::size_t(particle - sites_.size())];
   }
-  /// Whether cells at a site hang on different particles.
+  /// Whether cells at a site are attached to different particles.
   bool parted(int site) const { return fan_of_[std::size_t(site)] >= 0; }
   /// Sites that have parted, rising.
   std::vector<int> parted_sites() const;
   /// The cells at a site that exist.
   static unsigned cells_at(const Lattice& sites, int site);
   unsigned cells_at(int site) const { return cells_at(sites_, site); }
-  /// Those that hang on a particle.
+  /// Those that are attached to a particle.
   unsigned cells_of(int particle) const;
-  /// The particle of a site on which one of its cells hangs, by the number of its bit.
+  /// The particle of a site to which one of its cells is attached, by the number of its bit.
   int holder(int site, int cell) const;
   /// The particle at a corner of the cell (i, j).
   int corner(int i, int j, Corner at) const {
@@ -63,10 +63,10 @@ class Mesh {
   bool operator==(const Mesh&) const = default;
 
  private:
-  /// The particles on which a site's cells hang.
+  /// The particles to which a site's cells are attached.
   using Fan = std::array<std::int32_t, cells_round>;
   Lattice sites_;
-  std::vector<std::int32_t> fan_of_;  ///< of each site; -1: all of its cells hang on its own particle
+  std::vector<std::int32_t> fan_of_;  ///< of each site; -1: all of its cells are attached to its own particle
   std::vector<Fan> fans_;
   std::vector<std::int32_t> site_of_;  ///< of each copy
 };

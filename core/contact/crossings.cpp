@@ -116,7 +116,7 @@ class CrossingSearch {
     return placed;
   }
 
-  /// Copies that have not moved apart yet are one particle: cells that hang on them touch there as before.
+  /// Copies that have not moved apart yet are one particle: cells that are attached to them touch there as before.
   std::size_t particle_at(const QuadBlock& quad, Corner at) const {
     const int site = (quad.row + at.di) * lattice_.columns + quad.column + at.dj;
     if (tears_.mesh() == nullptr || !tears_.mesh()->parted(site)) return std::size_t(site);

@@ -100,8 +100,9 @@ bool within_bounds(const Preset& preset, const Lattice& lattice, const Tears& te
                  double(state.x_row(spring.a / lattice.columns, c)[spring.a % lattice.columns]);
     const double length = glm::length(apart);
     slack = std::min(slack, longest_factor * to.rest * preset.L - length);
+    if (slack >= 0) continue;
     fault = {spring.spring.i, spring.spring.j, "spring length", length, to.di, to.dj};
-    if (slack < 0) return false;
+    return false;
   }
   divergence_budget = slack;
   return true;

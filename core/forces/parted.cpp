@@ -57,7 +57,7 @@ Shape shape_of(const Stencil& stencil) {
   return shape;
 }
 
-/// The particle of a site on which the cells of a side hang that touch it; -1: two of them hang on different ones.
+/// The particle of a site to which the cells of a side are attached that touch it; -1: two of them have different ones.
 int particle_at(const Mesh& mesh, const Side& side, Corner owner, Corner site) {
   int particle = -1;
   for (const Corner& cell : side) {
@@ -183,7 +183,7 @@ class Puller {
  public:
   Puller(const Preset& preset, const Mesh& mesh, std::span<const glm::dvec3> x) : p_(preset), mesh_(mesh), x_(x) {}
 
-  /// The pull of the stretch springs that belong to a cell on the particle that it hangs on, N.
+  /// The pull of the stretch springs that belong to a cell on a particle that it is attached to, N.
   glm::dvec3 of_cell(int particle, int cell) const {
     const int site = mesh_.site(particle), columns = mesh_.sites().columns;
     const Corner offset = offset_of_cell(cell);

@@ -1,9 +1,9 @@
 // A cloth that parts (core/cloth/mesh.h): which stencils act where it has parted, and where it parts next.
 //
 // A stencil along a row or down a column has a side of cells on either hand; its halves, one a side, act on the
-// particles that those cells hang on, while each particle between its ends is the same for both of its cells. Others
-// lie in a cell and act wholly on its particles. Halves add up to the whole, so to part a site changes no force of the
-// cloth as it lies then, and no energy.
+// particles that those cells are attached to, while each particle between its ends is the same for both of its cells.
+// Others lie in a cell and act wholly on its particles. Halves add up to the whole, so to part a site changes no force
+// of the cloth as it lies then, and no energy.
 #pragma once
 
 #include <array>

@@ -325,9 +325,24 @@ TEST_CASE("a cut from border to border parts the cloth in two") {
   }
 }
 
-TEST_CASE("an opening leaves wind, moving pins and counts as they are") {
+TEST_CASE("an opening leaves the wind as it blows: a gust acts once") {
+  Preset p = test::quiet_cloth(10, 10);
+  p.tearing = "split", p.W = {0, 0, 0.003}, p.gust = 0.9, p.gust_period = 20, p.dt = 1e-3;
+  Simulation cut(p, 1), whole(p, 1);
+  for (Simulation* one : {&cut, &whole}) one->advance(3000);
+  REQUIRE(std::abs(whole.wind().z / p.W.z - 1) > 0.3);
+  const double before = momentum(cut).z;
+  CHECK(std::abs(momentum(whole).z - before) < 1e-12);
+  cut.apply(edit::Cut{{{7, 2}, {7, 3}, {7, 4}}});
+  for (Simulation* one : {&cut, &whole}) one->advance(5);
+  CHECK(cut.tears().particles() > 100);
+  const double gained = momentum(whole).z - before;
+  // Triangles beside the cut turn a little otherwise.
+  CHECK(std::abs(momentum(cut).z - before - gained) < 1e-2 * gained);
+}
+
+TEST_CASE("an opening leaves moving pins and counts as they are") {
   Preset p = sheet(10, 10);
-  p.W = {0, 0, 0.003}, p.gust = 0.9, p.gust_period = 20, p.k_b = 0, p.B = 0, p.air_density = 0,
   p.pins.mode = Pins::Mode::top_row;
   p.pins.motions = {{.mode = Pins::Mode::top_row, .path = {{0, {0, 0, 0}}, {1, {0.3, 0.1, 0.2}}}}};
   p.integrator = "dopri5", p.dt = 1e-3, p.precision = Precision::float_;
@@ -335,14 +350,17 @@ TEST_CASE("an opening leaves wind, moving pins and counts as they are") {
   for (Simulation* one : {&cut, &whole}) one->advance(100);
   cut.apply(edit::Cut{{{7, 2}, {7, 3}, {7, 4}}});
   for (Simulation* one : {&cut, &whole}) one->advance(50);
-  CHECK(cut.engine().inner_steps().accepted > 140);
+  CHECK(cut.engine().inner_steps().accepted >= 150);
   CHECK(cut.position(0, 0) == whole.position(0, 0));
-  const glm::dvec3 a = cut.particle(2, 8).forces["F_wind"], b = whole.particle(2, 8).forces["F_wind"];
-  CHECK(glm::distance(a, b) < 0.02 * glm::length(b));
   cut.apply(edit::Cut{{{0, 5}, {1, 5}, {2, 5}}});
   cut.advance(10), whole.advance(10);
-  for (int n = 100; n < cut.tears().particles(); ++n)
-    if (cut.pinned(n / 10, n % 10)) CHECK(cut.position(n / 10, n % 10) == whole.position(0, 5));
+  int pinned = 0;
+  for (int n = 100; n < cut.tears().particles(); ++n) {
+    if (!cut.pinned(n / 10, n % 10)) continue;
+    ++pinned;
+    CHECK(cut.position(n / 10, n % 10) == whole.position(0, 5));
+  }
+  CHECK(pinned == 1);
 }
 
 TEST_CASE("while nothing parts, the rule changes no bit") {

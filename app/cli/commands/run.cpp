@@ -279,26 +279,6 @@ Json inner_steps_json(const Simulation& simulation) {
           {"force_evaluations", inner.force_evaluations}};
 }
 
-/// What the end of a run is looked at for: what its last state tells of it.
-struct EndFindings {
-  double excess = 0;                   ///< of energy (Simulation::excess)
-  std::optional<Crossings> crossings;  ///< none after a divergence, and in haste
-};
-
-EndFindings findings_at_end(Simulation& simulation, bool in_haste) {
-  EndFindings findings;
-  if (in_haste) return findings;
-  findings.excess = simulation.excess();
-  CrossingLimits limits;
-  limits.tested = 30'000'000;  // seconds
-  if (!simulation.divergence()) findings.crossings = self_crossings(simulation, limits);
-  return findings;
-}
-
-Json crossings_json(const std::optional<Crossings>& crossings) {
-  return crossings && crossings->complete ? Json(crossings->pairs) : Json();
-}
-
 /// Of all whole triangles, m².
 double cloth_area(Simulation& simulation) {
   const VectorField<double>& x = simulation.read().x;
@@ -308,6 +288,27 @@ double cloth_area(Simulation& simulation) {
     area += glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
   });
   return area;
+}
+
+/// What the end of a run is looked at for: what its last state tells of it.
+struct EndFindings {
+  double excess = 0;                   ///< of energy (Simulation::excess)
+  std::optional<Crossings> crossings;  ///< none after a divergence, and in haste
+  std::optional<double> area;          ///< m²; none in haste
+};
+
+EndFindings findings_at_end(Simulation& simulation, bool in_haste) {
+  EndFindings findings;
+  if (in_haste) return findings;
+  findings.excess = simulation.excess(), findings.area = cloth_area(simulation);
+  CrossingLimits limits;
+  limits.tested = 30'000'000;  // seconds
+  if (!simulation.divergence()) findings.crossings = self_crossings(simulation, limits);
+  return findings;
+}
+
+Json crossings_json(const std::optional<Crossings>& crossings) {
+  return crossings && crossings->complete ? Json(crossings->pairs) : Json();
 }
 
 /// What a run did, for programs.
@@ -338,7 +339,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"engine_choice", engine_choice_json(scene.engine_choice.get())},
           {"torn", simulation.tears().torn_count()},
           {"particles", simulation.tears().particles()},
-          {"area", finite_json(cloth_area(simulation))},
+          {"area", end.area ? finite_json(*end.area) : Json()},
           {"left_inside", simulation.left_inside()},
           {"held_back", simulation.engine().held_back()},
           {"energy", energy_json(simulation)},
@@ -415,7 +416,7 @@ int run(const RunOptions& options) {
   const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const bool diverged = simulation.divergence().has_value();
-  const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
+  const double particle_steps = double(simulation.steps()) * simulation.tears().particles();
   const bool in_haste = stepper.interrupted() && takes_long_to_show(simulation);
   const EndFindings end = findings_at_end(simulation, in_haste);
   const Json report = summary(simulation, scene,

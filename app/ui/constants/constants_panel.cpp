@@ -317,6 +317,10 @@ bool applies(const PresetRow& row, const Preset& preset) {
   return !row.only_one_kind || row.only == preset.kind;
 }
 
+bool is_word_row(const PresetRow& row, const Preset& preset) {
+  return preset.kind == Kind::cloth && (row.key == "self" || row.key == "tearing.mode");
+}
+
 void show_constant(Ui& ui, std::string_view key) {
   ui.panels = ui.settings.layout.left = true, ui.side = Side::constants;
   ui.slider.wanted_key = key;

@@ -39,6 +39,8 @@ void show_constant(Ui& ui, std::string_view key);
 void bring_into_sight(Ui& ui, std::string_view key);
 /// Whether the constant plays a part in this scene.
 bool applies(const PresetRow& row, const Preset& preset);
+/// Whether the panel shows it as a choice of words.
+bool is_word_row(const PresetRow& row, const Preset& preset);
 
 // One constant on one line: symbol, slider, value, unit, in aligned columns.
 

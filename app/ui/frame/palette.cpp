@@ -95,10 +95,11 @@ void add_engines(std::vector<PaletteEntry>& list) {
 
 void add_constants(const Ui& ui, std::vector<PaletteEntry>& list) {
   for (const PresetRow& row : notation())
-    if (applies(row, ui.session.requested_preset()))
-      list.push_back({"Constant", std::string(row.symbol) + "  " + std::string(row.quantity), std::string(row.unit),
-                      std::string(row.key) + " " + std::string(row.storhet), std::string(row.help),
-                      [key = row.key](Ui& u) { show_constant(u, key); }});
+    if (applies(row, ui.session.requested_preset()) || is_word_row(row, ui.session.requested_preset()))
+      list.push_back({"Constant",
+                      (row.symbol.empty() ? "" : std::string(row.symbol) + "  ") + std::string(row.quantity),
+                      std::string(row.unit), std::string(row.key) + " " + std::string(row.storhet),
+                      std::string(row.help), [key = row.key](Ui& u) { show_constant(u, key); }});
 }
 
 /// The method that it differs in, as presets write it: "rk4"; empty where it has the same.
