@@ -127,6 +127,10 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
     p.bodies[0].c = {0, 50, 0};
   });
   add("left column pinned", 128, 1, [](Preset& p) { p.pins.mode = Pins::Mode::left_column; });
+  for (const auto& [variant, rows] : {std::pair("one row parted", 1), std::pair("a tenth of the sites parted", 13)}) {
+    add(variant, 128, 1, [](Preset& p) { p.tearing = "split"; });
+    cases.back().rows_cut = rows;
+  }
   // All of the device's compute units; beside the CPU engine with as many threads.
   if (opencl_devices().devices.empty()) return cases;
   const auto on_opencl = [](Preset& p) { p.engine = EngineKind::opencl; };
@@ -140,7 +144,13 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
 
 ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   Simulation simulation(which.preset, which.threads);
-  const double particles = simulation.lattice().size();
+  for (int n = 0; n < which.rows_cut; ++n) {
+    edit::CutSprings cut;
+    for (int j = 0; j < which.preset.columns; ++j)
+      cut.springs.push_back({1, (2 * n + 1) * which.preset.rows / (2 * which.rows_cut), j});
+    simulation.apply(cut);
+  }
+  const double particles = simulation.lattice().sites().size();
   const int steps = steps_that_take(1e-2, simulation);
   std::vector<double> times;
   times.reserve(std::size_t(repeats));

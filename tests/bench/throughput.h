@@ -14,6 +14,7 @@ struct ThroughputCase {
   std::string variant;  ///< what differs from the plain scene, empty if nothing
   Preset preset;
   int threads = 1;
+  int rows_cut = 0;  ///< across which the cloth is cut before it is measured
 };
 
 struct ThroughputRow {
