@@ -55,7 +55,7 @@ Gap gap_of_edges(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3
     t = t > 1 ? 1 : 0;
     s = uu > 0 ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0;
   }
-  return {{1 - s, s, t - 1, -t}, w + s * u - t * v};
+  return {{1 - s, s, t - 1, -t}, w + s * u - t * v, true};
 }
 
 }  // namespace tyglab

@@ -9,6 +9,7 @@ namespace tyglab {
 struct Gap {
   std::array<double, 4> weights;  ///< of the pair's particles: Σ w x leads from the second part to the first
   glm::dvec3 between{0};          ///< that sum, m
+  bool edges = false;             ///< of two edges
 };
 /// From a point to a triangle.
 Gap gap_to_triangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& triangle);

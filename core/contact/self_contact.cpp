@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <tuple>
 
 namespace tyglab {
 namespace {
@@ -50,6 +51,37 @@ void SelfContact::look(Vectors x, bool begins_step) {
   if (begins_step) nearest_ = nearest;
 }
 
+void SelfContact::begin_solve(Vectors x) {
+  sides_.clear();
+  renew_solve(x);
+}
+
+void SelfContact::renew_solve(Vectors x) {
+  const std::ptrdiff_t known = std::ssize(sides_);
+  pairs_.measure(reach_per_L * L_, x, [&](const std::array<int, 4>& at, const Gap& gap, double distance) {
+    if (distance > 0) sides_.push_back({at, gap.edges, gap.between / distance});
+  });
+  // Each once, as it was first.
+  const auto name = [](const Side& side) { return std::tie(side.at, side.edges); };
+  const auto before = [&](const Side& a, const Side& b) { return name(a) < name(b); };
+  std::sort(sides_.begin() + known, sides_.end(), before);
+  std::inplace_merge(sides_.begin(), sides_.begin() + known, sides_.end(), before);
+  const auto same = [&](const Side& a, const Side& b) { return name(a) == name(b); };
+  sides_.erase(std::unique(sides_.begin(), sides_.end(), same), sides_.end());
+}
+
+void SelfContact::look_in_solve(Vectors x) {
+  touches_.clear();
+  for (Side& side : sides_) {
+    const auto place = [&](std::size_t n) { return x[std::size_t(side.at[n])]; };
+    const Gap gap = side.edges ? gap_of_edges({place(0), place(1)}, {place(2), place(3)})
+                               : gap_to_triangle(place(0), {place(1), place(2), place(3)});
+    if (glm::dot(gap.between, side.normal) > 0) side.normal = glm::normalize(gap.between);
+    const double distance = glm::dot(gap.between, side.normal);
+    if (distance < d_) touches_.push_back({side.at, gap.weights, side.normal, d_ - distance});
+  }
+}
+
 double SelfContact::add_forces(std::span<glm::dvec3> F) const {
   const double k = k_ / (d_ * d_);
   double energy = 0;
@@ -61,15 +93,32 @@ double SelfContact::add_forces(std::span<glm::dvec3> F) const {
   return energy;
 }
 
+/// How fast its parts slide over each other, m/s.
+glm::dvec3 SelfContact::slip_of(const Touch& touch, Vectors v) const {
+  glm::dvec3 slip{0};
+  for (std::size_t n = 0; n < touch.at.size(); ++n) slip += touch.weights[n] * v[std::size_t(touch.at[n])];
+  return slip - glm::dot(slip, touch.normal) * touch.normal;
+}
+
+/// Its friction by that, N s/m.
+double SelfContact::friction_of(const Touch& touch, const glm::dvec3& slip) const {
+  return friction_ * touch.push(k_ / (d_ * d_)) / std::sqrt(glm::dot(slip, slip) + slow * slow);
+}
+
 void SelfContact::add_friction(Vectors v, std::span<glm::dvec3> F) const {
-  const double k = k_ / (d_ * d_);
   for (const Touch& touch : touches_) {
-    glm::dvec3 slip{0};
-    for (std::size_t n = 0; n < touch.at.size(); ++n) slip += touch.weights[n] * v[std::size_t(touch.at[n])];
-    slip -= glm::dot(slip, touch.normal) * touch.normal;
-    const glm::dvec3 force = -friction_ * touch.push(k) / std::sqrt(glm::dot(slip, slip) + slow * slow) * slip;
+    const glm::dvec3 slip = slip_of(touch, v), force = -friction_of(touch, slip) * slip;
     for (std::size_t n = 0; n < touch.at.size(); ++n) F[std::size_t(touch.at[n])] += touch.weights[n] * force;
   }
+}
+
+std::vector<SelfContact::Resistance> SelfContact::resistances(Vectors v) const {
+  std::vector<Resistance> all;
+  all.reserve(touches_.size());
+  for (const Touch& touch : touches_)
+    all.push_back({touch.at, touch.weights, touch.normal, 12 * k_ / (d_ * d_) * touch.s * touch.s,
+                   has_friction() ? friction_of(touch, slip_of(touch, v)) : 0});
+  return all;
 }
 
 /// δ, where coordinates are that large, m: positions may be kept in float.
@@ -115,8 +164,8 @@ std::span<const SelfContact::Held> SelfContact::hold_back(Vectors x_before, std:
 }
 
 std::size_t SelfContact::bytes() const {
-  return pairs_.bytes() + held_.capacity() * sizeof(Held) + room_.capacity() * sizeof(double) +
-         touches_.capacity() * sizeof(Touch);
+  return pairs_.bytes() + sides_.capacity() * sizeof(Side) + held_.capacity() * sizeof(Held) +
+         room_.capacity() * sizeof(double) + touches_.capacity() * sizeof(Touch);
 }
 
 }  // namespace tyglab

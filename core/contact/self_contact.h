@@ -57,6 +57,15 @@ class SelfContact {
 
   /// Measures what is near at positions x (m), which are followed. `begins_step`: the guard's next step.
   void look(Vectors x, bool begins_step = false);
+  // An implicit solve tries positions beyond other layers, where the force as such would push further on. So pairs
+  // within the reach keep the sides that they have where the solve begins: a pair that has passed through pushes back
+  // by as much. Where nothing has passed through, that is the same force.
+  /// A solve begins, in a step that begins at positions x, which are followed.
+  void begin_solve(Vectors x);
+  /// As look(), at positions within the solve.
+  void look_in_solve(Vectors x);
+  /// Adds pairs that have come within the reach, at positions x, which are followed.
+  void renew_solve(Vectors x);
   /// Whether any pair that look() saw has a force.
   bool touches() const { return !touches_.empty(); }
   /// Adds what pushes layers apart where look() saw them to F (N). Returns its energy, J.
@@ -64,6 +73,15 @@ class SelfContact {
   /// Adds the friction against their slip, with velocities v (m/s).
   void add_friction(Vectors v, std::span<glm::dvec3> F) const;
   bool has_friction() const { return friction_ > 0; }
+  /// How a pair resists: along its normal with a stiffness, N/m, across it with a damping, N s/m.
+  struct Resistance {
+    std::array<int, 4> at;
+    std::array<double, 4> weights;
+    glm::dvec3 normal;
+    double along, across;
+  };
+  /// Of each pair that look() saw, with velocities v (m/s) as add_friction() had them.
+  std::vector<Resistance> resistances(Vectors v) const;
 
   /// A way up to which the guard leaves every particle, m, in a step that began where it was followed, and looked at if
   /// anything was near.
@@ -93,11 +111,20 @@ class SelfContact {
     /// The size of the force, N, with k/d².
     double push(double k) const { return 4 * k * s * s * s; }
   };
+  /// A pair in a solve, and the direction from its second part to its first.
+  struct Side {
+    std::array<int, 4> at;
+    bool edges;
+    glm::dvec3 normal;
+  };
   double least_gap(double farthest) const;
+  glm::dvec3 slip_of(const Touch& touch, Vectors v) const;
+  double friction_of(const Touch& touch, const glm::dvec3& slip) const;
 
   NearPairs pairs_;
   double L_ = 0, d_ = 0, k_ = 0, friction_ = 0;
   std::vector<Touch> touches_;  ///< as of the last look
+  std::vector<Side> sides_;     ///< of the present solve, rising by their particles
   double nearest_ = 0;          ///< distance of the nearest pair where the step began, if that matters, m
   std::vector<double> room_;    ///< of each particle, if that matters, m
   std::vector<Held> held_;

@@ -140,15 +140,16 @@ inline bool is_stabilized(const Scheme& scheme) {
 inline bool projects(const Scheme& scheme) {
   return scheme.sweeps.back().projects;
 }
-/// Whether it takes the cloth's contact with itself: its forces are those at known positions.
+/// Whether it takes the cloth's contact with itself: its forces are those at known positions, or what it solves is any
+/// force.
 inline bool takes_self_contact(const Scheme& scheme) {
-  return !is_implicit(scheme) && !projects(scheme);
+  return !projects(scheme) && scheme.solver == Solver::newton;
 }
 /// Whether only the damping is implicit: a linear system whose matrix does not depend on the motion.
 inline bool solves_damping(const Scheme& scheme) {
   return scheme.sweeps.back().damps != 0;
 }
-/// Whether it takes a cloth that parts (parted.h): its forces are those at known positions and velocities.
+/// Whether it takes a cloth that parts (parted.h): no matrix of the lattice's alone.
 inline bool parts_cloth(const Scheme& scheme) {
   return takes_self_contact(scheme) && !solves_damping(scheme);
 }

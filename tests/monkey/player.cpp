@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "app/base/glfw_keys.h"
+#include "app/process/program_run.h"
 #include "app/session/document.h"
 #include "app/shell/start.h"
 #include "app/ui/frame/frame.h"
@@ -110,6 +111,8 @@ void Player::begin(const Settings& settings) {
   window_ = std::make_unique<test::NullUi>(options);
   setenv("TYGLAB_CONFIG_DIR", (folder_ / "config").c_str(), 1);
   Session& session = window_->session;
+  session.rebuild.prepare_programs =
+      run_programs_once;  // as the sandbox does in a child: no frame waits for a compiler
   session.show_texture = [](const std::string& texture) -> std::optional<std::string> {
     const FoundPicture picture = find_picture(texture);
     const auto* why = std::get_if<std::string>(&picture);

@@ -411,18 +411,18 @@ void CpuEngine<R, Present>::write_fixed_velocities() {
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step) {
+void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out) {
   ResolvedSweep look;
   look.position = position, look.velocity = velocity;
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale(), look.per_velocity = 1 / cloth_.velocity_scale();
-  accelerations(look, tears, out, of_step);
+  follow_springs(tears), begin_self(tears);
+  accelerations_of(look, tears, out, false);
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step) {
+void CpuEngine<R, Present>::accelerations_of(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
-  follow_springs(tears);
-  begin_self(tears), find_given_force(look);
+  find_given_force(look);
   for (const auto& band : bands()) band->copy_halo(look);
   for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
 }

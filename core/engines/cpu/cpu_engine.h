@@ -155,9 +155,10 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void follow_springs(const Tears& tears) {
     cloth_.springs.follow(cloth_.preset, tears, cloth_.stride), follow_loose(tears);
   }
-  /// F/m at two of the vectors. `of_step`: as Band has it.
-  void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
-  void accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);
+  /// F/m at two of the vectors, between steps.
+  void accelerations(int position, int velocity, const Tears& tears, Field& out);
+  /// F/m of a sweep, also within a step. `of_step`: as Band has it.
+  void accelerations_of(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);
   /// The implicit stage of a sweep. Returns false, to all threads, where it was stopped.
   bool solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears);
   void begin_air(const ResolvedSweep& sweep, const Tears& tears);
@@ -226,12 +227,16 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void follow_loose(const Tears& tears);
   void find_given_force(const ResolvedSweep& sweep);
   void add_loose_springs();
+  const implicit::Beside* begin_beside();
+  void add_loose_couplings(double h, std::vector<implicit::Coupling>& out) const;
   double loose_slack(const Tears& tears) const;
   double share_held() const;
   // Contact of the cloth with itself, on one thread (cpu_self.cpp).
   void begin_self(const Tears& tears);
   void find_near_force(const ResolvedSweep& sweep);
   bool end_self();
+  void begin_self_solve();
+  void add_self_couplings(double h, std::vector<implicit::Coupling>& out) const;
   void fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const;
   /// Something other than steps has moved particles.
   void lose_self() {
@@ -285,6 +290,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
     double way = std::numeric_limits<double>::infinity();  ///< of particles since its list was looked at, m
     std::vector<glm::dvec3> x, v, F;                       ///< v: also positions at the beginning of the step, after it
     bool looked = false;                                   ///< at the positions of the state
+    bool solving = false;                                  ///< within an implicit solve
     Field rows_before;                                     ///< positions at the beginning of the step
     Field force;
     std::int64_t held_back = 0, held_back_then = 0;  ///< by the guard; and as of the backup
@@ -309,6 +315,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
     int known_torn = 0;  ///< -1: the constants have changed
   };
   Loose loose_;
+  implicit::Beside beside_;            ///< what implicit stages are told of both; its particles as of known_torn
   std::int64_t damping_products_ = 0;  ///< of a method that solves for the damping, in all steps
   int known_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made

@@ -80,6 +80,11 @@ void CpuEngine<R, Present>::find_given_force(const ResolvedSweep& sweep) {
   find_near_force(sweep);
   Loose& loose = loose_;
   if (loose.particles.empty()) return;
+  using Air = ResolvedSweep::Air;
+  const auto is_in = [&](const Force& force) {
+    if (&force == &force::air ? sweep.air == Air::none : sweep.air == Air::alone) return false;
+    return !sweep.external || force.group != Force::Group::internal;
+  };
   const std::ptrdiff_t component = cloth_.stride;
   const R *x = cloth_.vector(sweep.position).row(0), *v = cloth_.vector(sweep.velocity).row(0);
   for (std::size_t n = 0; n < loose.particles.size(); ++n) {
@@ -88,11 +93,11 @@ void CpuEngine<R, Present>::find_given_force(const ResolvedSweep& sweep) {
     loose.v[n] = sweep.per_velocity * glm::dvec3(moving[0], moving[component], moving[2 * component]);
     loose.F[n] = glm::dvec3(0);
   }
-  if (!sweep.external) add_loose_springs();
+  if (!sweep.external && sweep.air != Air::alone) add_loose_springs();
   const auto x_of = [&](int n) { return loose.x[std::size_t(n)]; };
   const auto v_of = [&](int n) { return loose.v[std::size_t(n)]; };
   for (const LooseStencil& one : loose.others) {
-    if (sweep.external && one.force->group == Force::Group::internal) continue;
+    if (!is_in(*one.force)) continue;
     const ForceAction action = action_of(cloth_.preset, one, x_of, v_of);
     for (std::size_t n = 0; n < std::size_t(one.stencil->points); ++n) loose.F[std::size_t(one.at[n])] += action.F[n];
   }
@@ -101,6 +106,52 @@ void CpuEngine<R, Present>::find_given_force(const ResolvedSweep& sweep) {
     for (int c = 0; c < 3; ++c) to[c * component] = R(loose.per_share[n] * loose.F[n][c]);
   }
   cloth_.near_force = &loose.force;
+}
+
+/// What the next implicit stage has beside the lattice; null: nothing.
+template <class R, unsigned Present>
+const implicit::Beside* CpuEngine<R, Present>::begin_beside() {
+  const bool meets = self_ != nullptr && self_->contact.near();
+  if (!meets && loose_.particles.empty()) return nullptr;
+  beside_.lighter.clear();
+  for (std::size_t n = 0; n < loose_.particles.size(); ++n)
+    beside_.lighter.push_back({loose_.places[n], 1 / loose_.per_share[n]});
+  beside_.couplings = [this](double h, std::vector<implicit::Coupling>& out) {
+    out.clear();
+    add_loose_couplings(h, out), add_self_couplings(h, out);
+  };
+  beside_.renew = {};
+  if (meets) begin_self_solve();
+  return &beside_;
+}
+
+/// How loose springs and stencils resist, where forces were computed last: like the lattice's own (newton.h).
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::add_loose_couplings(double h, std::vector<implicit::Coupling>& out) const {
+  constexpr double shortest = 1e-9;
+  const Preset& p = cloth_.preset;
+  const double scale = h * h / p.m;
+  for (const auto& spring : loose_.springs) {
+    const auto a = std::size_t(spring.a), b = std::size_t(spring.b);
+    const glm::dvec3 d = loose_.x[b] - loose_.x[a];
+    const double length = std::sqrt(glm::dot(d, d));
+    implicit::Coupling one{.points = 2, .at = {loose_.places[a], loose_.places[b]}, .weights = {-1, 1}};
+    one.all = h * spring.k_d / p.m;
+    if (spring.sign * (length - spring.rest) > 0 && length > shortest * spring.rest) {
+      const double across = spring.sign < 0 ? 0 : scale * spring.k * (1 - spring.rest / length);
+      one.all += across, one.extra = scale * spring.k - across, one.along = d / length;
+    }
+    if (one.all > 0 || one.extra > 0) out.push_back(one);
+  }
+  for (const LooseStencil& loose : loose_.others) {
+    if (loose.force->linear == nullptr) continue;
+    static_assert(implicit::Coupling::most_points == Stencil::most_points);
+    implicit::Coupling one{.points = loose.stencil->points};
+    for (std::size_t n = 0; n < std::size_t(one.points); ++n)
+      one.at[n] = loose_.places[std::size_t(loose.at[n])], one.weights[n] = loose.stencil->at[n].weight;
+    one.all = scale * loose.weight * loose.force->linear(p, *loose.stencil);
+    out.push_back(one);
+  }
 }
 
 /// The share of its site's mass that the held particle has: what rows add up for it is its force by that.
@@ -140,6 +191,7 @@ double CpuEngine<R, Present>::loose_slack(const Tears& tears) const {
   template void CpuEngine<R, (present)>::follow_loose(const Tears&);             \
   template void CpuEngine<R, (present)>::add_loose_springs();                    \
   template void CpuEngine<R, (present)>::find_given_force(const ResolvedSweep&); \
+  template const implicit::Beside* CpuEngine<R, (present)>::begin_beside();      \
   template double CpuEngine<R, (present)>::loose_slack(const Tears&) const;      \
   template double CpuEngine<R, (present)>::share_held() const;
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)

@@ -39,10 +39,14 @@ void CpuEngine<R, Present>::begin_self(const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
   cloth_.near_force = nullptr;
-  if (self_ == nullptr || !self_->contact.near() || sweep.external) return;
+  if (self_ == nullptr || sweep.external || sweep.air == ResolvedSweep::Air::alone) return;
+  if (!self_->solving && !self_->contact.near()) return;
   std::vector<glm::dvec3>& F = self_->F;
   // The first sweep of a step is at the positions that its beginning has looked at.
-  if (sweep.position != vector_x || !self_->looked) {
+  if (self_->solving) {
+    fetch(cloth_.vector(sweep.position), 1, self_->x);
+    self_->contact.look_in_solve(self_->x);
+  } else if (sweep.position != vector_x || !self_->looked) {
     fetch(cloth_.vector(sweep.position), 1, self_->x);
     self_->contact.follow(self_->x);
     self_->contact.look(self_->x);
@@ -63,6 +67,34 @@ void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
       for (int j = 0; j < columns; ++j) row[j] = R(F[std::size_t(i) * std::size_t(columns) + std::size_t(j)][c]);
     }
   cloth_.near_force = &self_->force;
+}
+
+/// Before an implicit stage: until it ends, pairs keep their sides.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::begin_self_solve() {
+  fetch(cloth_.vector(vector_x), 1, self_->x);
+  if (!self_->looked) self_->contact.follow(self_->x);
+  self_->contact.begin_solve(self_->x);
+  self_->solving = true;
+  self_->looked = false, self_->way = std::numeric_limits<double>::infinity();
+  beside_.renew = [this] {
+    self_->contact.follow(self_->x);
+    self_->contact.renew_solve(self_->x);
+  };
+}
+
+/// How layers in contact resist, where forces were computed last.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::add_self_couplings(double h, std::vector<implicit::Coupling>& out) const {
+  if (self_ == nullptr || !self_->contact.touches()) return;
+  const std::ptrdiff_t pitch = cloth_.vector(vector_x).pitch();
+  const int columns = cloth_.lattice.columns;
+  for (const auto& [at, weights, normal, along, across] : self_->contact.resistances(self_->v)) {
+    implicit::Coupling one{.points = int(at.size()), .weights = weights, .along = normal};
+    for (std::size_t n = 0; n < at.size(); ++n) one.at[n] = at[n] / columns * pitch + at[n] % columns;
+    one.all = h * across / cloth_.preset.m, one.extra = h * h * along / cloth_.preset.m - one.all;
+    out.push_back(one);
+  }
 }
 
 /// After a step: the guard. Returns whether it has changed anything.
@@ -99,9 +131,11 @@ bool CpuEngine<R, Present>::end_self() {
 }
 
 // What the engine's other files need of this one.
-#define TYGLAB_MAKE(R, present)                                                 \
-  template void CpuEngine<R, (present)>::begin_self(const Tears&);              \
-  template void CpuEngine<R, (present)>::find_near_force(const ResolvedSweep&); \
+#define TYGLAB_MAKE(R, present)                                                                              \
+  template void CpuEngine<R, (present)>::begin_self(const Tears&);                                           \
+  template void CpuEngine<R, (present)>::find_near_force(const ResolvedSweep&);                              \
+  template void CpuEngine<R, (present)>::begin_self_solve();                                                 \
+  template void CpuEngine<R, (present)>::add_self_couplings(double, std::vector<implicit::Coupling>&) const; \
   template bool CpuEngine<R, (present)>::end_self();
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE

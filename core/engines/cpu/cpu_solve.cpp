@@ -34,7 +34,7 @@ void CpuEngine<R, Present>::begin_air(const ResolvedSweep& sweep, const Tears& t
   if ((cloth_.features & air) == 0) return;
   ResolvedSweep look;
   look.position = sweep.position, look.velocity = sweep.velocity, look.air = ResolvedSweep::Air::alone;
-  accelerations(look, tears, air_, true);
+  accelerations_of(look, tears, air_, true);
   if (!has(part::hand) || cloth_.held.particle < 0) return;
   for (const auto& band : bands())
     if (band->has_hand()) hand_force_ = band->hand_force();
@@ -47,7 +47,7 @@ void CpuEngine<R, Present>::stage_accelerations(const ResolvedSweep& sweep, cons
   ResolvedSweep look;
   look.position = sweep.position, look.velocity = sweep.velocity, look.external = sweep.external;
   look.k_d = cloth_.preset.k_d, look.air = ResolvedSweep::Air::none;
-  accelerations(look, tears, out, of_step);
+  accelerations_of(look, tears, out, of_step);
   if ((cloth_.features & air) == 0) return;
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (std::ptrdiff_t n = 0; n < air_.pitch(); ++n) out.row(i)[n] += air_.row(i)[n];
@@ -58,6 +58,7 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
   assert(&sweep >= sweeps_.data() && &sweep < sweeps_.data() + sweeps_.size());
   for (const auto& band : bands()) band->assign(sweep.before, false);
   begin_air(sweep, tears);
+  const implicit::Beside* beside = begin_beside();
   const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
   const bool solved = solver_.solve(
       cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
@@ -66,7 +67,8 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
        {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return out_of_time((stage + part) / stages); }},
        [&](double part) { set_step_progress((stage + part) / stages); },
        *crew_},
-      {scheme_->solver, springs_changed(tears), (cloth_.features & air) == 0 ? nullptr : &air_});
+      {scheme_->solver, springs_changed(tears), (cloth_.features & air) == 0 ? nullptr : &air_, beside});
+  if (self_ != nullptr) self_->solving = false;
   if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
   return solved;
 }

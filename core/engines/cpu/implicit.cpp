@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "core/forces/force.h"
@@ -84,6 +85,7 @@ std::size_t ImplicitSolver<R>::bytes() const {
   for (const Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
     total += field->bytes();
+  total += couplings_.capacity() * sizeof(Coupling);
   return total + kept_.bytes() + direct_.bytes() + stiff_.bytes() + global_.bytes();
 }
 
@@ -100,10 +102,15 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
                               const Accelerations& accelerations, const Watch& watch, Way way) {
   assert(dt > 0 && position != velocity);
   if (!begin_stage(cloth, position, velocity, &watch)) return false;
-  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, air_ = way.air;
+  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, air_ = way.air, beside_ = way.beside;
   // A mass on a spring is linear: Newton's method solves it in one step.
   const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
-  alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
+  if (alternates)
+    alternate(way.changed);
+  else if (beside_ != nullptr)
+    solve_beside();
+  else
+    solve_either_way(*this, cloth.preset, dt, too_slow_);
   if (!left_to_passes_ && !stopped_) note_balance(judged_);
   return !stopped_;
 }
@@ -117,7 +124,7 @@ void ImplicitSolver<R>::note_balance(const Balance& balance) {
 
 template <class R>
 bool ImplicitSolver<R>::begin_stage(Cloth<R>& cloth, int position, int velocity, const Watch* watch) {
-  task_ = {&cloth, position, velocity, 0, nullptr, nullptr, watch};
+  task_ = {&cloth, position, velocity, 0, nullptr, nullptr, watch}, beside_ = nullptr;
   stopped_ = left_to_passes_ = false;
   return resize() && copy(this->position(), start_x_) && copy(this->velocity(), start_v_);
 }
@@ -137,6 +144,21 @@ Balance ImplicitSolver<R>::solve_by_newton() {
   if (!resize_newton()) return {};
   return tyglab::solve(
       *this, {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt}, counts_);
+}
+
+/// Newton's method, again with what has come near on its way.
+template <class R>
+Balance ImplicitSolver<R>::solve_beside() {
+  constexpr int most_passes = 5;
+  Balance found = solve_by_newton();
+  for (int n = 1; n < most_passes && beside_->renew && cloth().preset.iterations > 1; ++n) {
+    if (stops() || out_of_time()) break;
+    beside_->renew();
+    evaluate(), found = balance();
+    if (found.found()) break;
+    found = solve_by_newton();
+  }
+  return found;
 }
 
 /// Projective dynamics: with each spring's nearest vector of an allowed length, the energy is quadratic, and the next
@@ -219,6 +241,10 @@ double ImplicitSolver<R>::evaluate() {
   in_parts(r.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) r[n] = h * acceleration_.all()[n] - (v[n] - start_v_.all()[n]);
   });
+  // As a force, of which a lighter particle needs less.
+  if (beside_ != nullptr)
+    for (const Lighter& one : beside_->lighter)
+      for (int c = 0; c < 3; ++c) residual_.row(0)[one.at + c * stride_] *= R(one.share);
   return std::sqrt(inner(residual_, residual_));
 }
 
@@ -251,7 +277,29 @@ void ImplicitSolver<R>::linearize() {
   if (!weight)
     for (int i = 0; i < rows_ && !stops(); ++i)
       for (int d = 0; d < springs_of_a_particle; ++d) linearize_row(d, i);
+  if (beside_ != nullptr) add_couplings();
   invert_blocks();
+}
+
+/// What is beside the lattice: its couplings, and what they and lighter particles add to the blocks.
+template <class R>
+void ImplicitSolver<R>::add_couplings() {
+  beside_->couplings(task_.dt, couplings_);
+  const std::ptrdiff_t pitch = start_x_.pitch();
+  const auto block_at = [&](std::ptrdiff_t at) { return block(int(at / pitch)) + at % pitch; };
+  for (const Lighter& one : beside_->lighter)
+    for (int c = 0; c < 3; ++c) block_at(one.at)[c * stride_] += R((one.share - 1) * mass_);
+  for (const Coupling& one : couplings_) {
+    const glm::dvec3& n = one.along;
+    const double add[6] = {one.all + one.extra * n.x * n.x, one.all + one.extra * n.y * n.y,
+                           one.all + one.extra * n.z * n.z, one.extra * n.y * n.z,
+                           one.extra * n.z * n.x,           one.extra * n.x * n.y};
+    for (int p = 0; p < one.points; ++p) {
+      const double squared = one.weights[std::size_t(p)] * one.weights[std::size_t(p)];
+      R* to = block_at(one.at[std::size_t(p)]);
+      for (int c = 0; c < 6; ++c) to[c * stride_] += R(squared * add[c]);
+    }
+  }
 }
 
 /// The springs of a row in one direction: their coefficients, and what they add to the blocks of both ends.
@@ -318,6 +366,31 @@ double ImplicitSolver<R>::multiply() {
   for (int i = 0; i < rows_ && !stops_before(i); ++i)
     sum += multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(stride_), direction_.row(i),
                                        product_.row(i), stride_, cloth().lattice.columns, i == 0, mass_});
+  return beside_ == nullptr ? sum : sum + multiply_beside();
+}
+
+/// Adds what is beside the lattice to that product; returns its part of the inner product.
+template <class R>
+double ImplicitSolver<R>::multiply_beside() {
+  double sum = 0;
+  const R* p = direction_.row(0);
+  R* q = product_.row(0);
+  for (const Lighter& one : beside_->lighter)
+    for (int c = 0; c < 3; ++c) {
+      const std::ptrdiff_t at = one.at + c * stride_;
+      const double lacks = (one.share - 1) * mass_ * double(p[at]);
+      q[at] += R(lacks), sum += lacks * double(p[at]);
+    }
+  for (const Coupling& one : couplings_) {
+    glm::dvec3 u{0};
+    for (int n = 0; n < one.points; ++n)
+      for (int c = 0; c < 3; ++c) u[c] += one.weights[std::size_t(n)] * double(p[one.at[std::size_t(n)] + c * stride_]);
+    const glm::dvec3 resists = one.all * u + one.extra * glm::dot(one.along, u) * one.along;
+    for (int n = 0; n < one.points; ++n)
+      for (int c = 0; c < 3; ++c)
+        q[one.at[std::size_t(n)] + c * stride_] += R(one.weights[std::size_t(n)] * resists[c]);
+    sum += glm::dot(u, resists);
+  }
   return sum;
 }
 
@@ -370,7 +443,7 @@ bool ImplicitSolver<R>::gradients() {
 template <class R>
 bool ImplicitSolver<R>::solve_directly() {
   const Lattice& lattice = cloth().lattice;
-  if (cloth().preset.kind == Kind::one_weight || !DirectSolver::is_quick(lattice)) return false;
+  if (cloth().preset.kind == Kind::one_weight || beside_ != nullptr || !DirectSolver::is_quick(lattice)) return false;
   const auto fixed = [&](int i, int j) {
     return !cloth().fixed.empty() && cloth().fixed[std::size_t(i) * lattice.columns + j] != 0;
   };

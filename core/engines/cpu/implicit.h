@@ -10,6 +10,7 @@
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/global_step.h"
 #include "core/engines/direct_solve.h"
+#include "core/engines/implicit/couplings.h"
 #include "core/engines/implicit/stiff_stage.h"
 #include "core/engines/implicit/stiffness.h"
 #include "core/engines/newton.h"
@@ -35,6 +36,8 @@ class ImplicitSolver final : private implicit::EitherStage {
     Solver solver;
     bool changed;
     const Field* air;  ///< accelerations that the stage has beside those of its positions and velocities; or null
+    const implicit::Beside*
+        beside;  ///< what the cloth has beside the lattice, which Newton's method alone knows; or null
   };
 
   /// A step begins, whose stages come next.
@@ -75,6 +78,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Trial try_part(double part) override;
   Balance balance() override;
   Balance solve_by_newton() override;
+  Balance solve_beside();
   Balance solve_stiff() override;
   Balance solve_quickly() override;
   void keep() override { kept_ = velocity(); }
@@ -113,7 +117,9 @@ class ImplicitSolver final : private implicit::EitherStage {
   void linearize_row(int direction, int i);
   void invert_blocks();
   bool conjugate_gradients();
+  void add_couplings();
   double multiply();
+  double multiply_beside();
   implicit::Residual update(double alpha);
   double inner(const Field& a, const Field& b);
   R* block(int i) { return blocks_.data() + std::size_t(i) * 6 * stride_; }
@@ -134,7 +140,9 @@ class ImplicitSolver final : private implicit::EitherStage {
   Array<R> coefficients_;
   DirectSolver direct_;
   implicit::StiffStage stiff_;
-  const Field* air_ = nullptr;  ///< of the present stage
+  const Field* air_ = nullptr;                 ///< of the present stage
+  const implicit::Beside* beside_ = nullptr;   ///< likewise
+  std::vector<implicit::Coupling> couplings_;  ///< of the present linear system
   implicit::TooSlow too_slow_;
   GlobalStep<R> global_;
   SolveCounts counts_;
