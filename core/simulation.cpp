@@ -271,7 +271,7 @@ void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   // The guard keeps apart what is apart.
   if (guards_itself(next) && !guards_itself(preset_))
-    if (const Crossings crossings = count_crossings(read().x, tears_); crossings.pairs > 0)
+    if (const Crossings crossings = count_crossings(read().x, tears_); crossings.pairs > crossings.around_sites)
       throw PresetError("contact.self: guard: the cloth crosses itself now, in " + grouped(crossings.pairs) +
                         (crossings.pairs == 1 ? " pair" : " pairs") +
                         " of triangles, and a guard does not part them; restart the scene, or use repel");

@@ -24,9 +24,16 @@ Crossings self_crossings(const Simulation& simulation, const CrossingLimits& lim
 
 std::string crossings_in_words(const Crossings& crossings) {
   if (crossings.pairs == 0) return "";
-  return std::string("The cloth passes through itself: ") + (crossings.complete ? "" : "at least ") +
-         grouped(crossings.pairs) +
-         (crossings.pairs == 1 ? " pair of triangles crosses." : " pairs of triangles cross.");
+  const std::string pairs =
+      grouped(crossings.pairs) + (crossings.pairs == 1 ? " pair of triangles crosses" : " pairs of triangles cross");
+  const std::string around =
+      crossings.around_sites == 0
+          ? ""
+          : (crossings.around_sites == crossings.pairs ? std::string(", ")
+                                                       : ", " + grouped(crossings.around_sites) + " of them ") +
+                "around a site that has parted, where no guard acts";
+  return std::string("The cloth passes through itself: ") + (crossings.complete ? "" : "at least ") + pairs + around +
+         ".";
 }
 
 }  // namespace tyglab

@@ -97,6 +97,7 @@ class CrossingSearch {
     const MatchedPair pair = matched(a.corners, b.corners);
     if (!triangles_cross(triangle(pair.a), triangle(pair.b), pair.shared)) return;
     ++found_.pairs;
+    found_.around_sites += around_one_site(a.corners, b.corners);
     if (found_.listed.size() == limits_.listed) return;
     const int first = triangle_number(lattice_, a.site), second = triangle_number(lattice_, b.site);
     found_.listed.push_back({std::min(first, second), std::max(first, second)});
@@ -126,6 +127,14 @@ class CrossingSearch {
       if (other < particle && position(other) == position(particle)) particle = other;
     }
     return particle;
+  }
+  bool around_one_site(const std::array<std::size_t, 3>& a, const std::array<std::size_t, 3>& b) const {
+    const Mesh* mesh = tears_.mesh();
+    return mesh != nullptr && std::any_of(a.begin(), a.end(), [&](std::size_t one) {
+             return std::any_of(b.begin(), b.end(), [&](std::size_t other) {
+               return one != other && mesh->site(int(one)) == mesh->site(int(other));
+             });
+           });
   }
   glm::dvec3 position(std::size_t p) const { return {x_.x[p], x_.y[p], x_.z[p]}; }
   Triangle triangle(const std::array<std::size_t, 3>& p) const {

@@ -22,13 +22,15 @@ Box both(const Box& a, const Box& b) {
   return {glm::min(a.least, b.least), glm::max(a.most, b.most)};
 }
 
-/// Corners of a site's parts, as 2·di + dj, by the parity of the site: particle, triangles, edges.
+/// Corners of a site's parts, as 2·di + dj, by the parity of the site: particle, triangles, edges, then those that
+/// other sites have where nothing has parted.
 struct PartCorners {
   int count;
   std::array<int, 3> at;
 };
-constexpr std::array<std::array<PartCorners, 6>, 2> parts_by_parity = [] {
-  std::array<std::array<PartCorners, 6>, 2> all{};
+constexpr int right_particle = 6, below_particle = 7, last_particle = 8, below_edge = 9, right_edge = 10;
+constexpr std::array<std::array<PartCorners, 11>, 2> parts_by_parity = [] {
+  std::array<std::array<PartCorners, 11>, 2> all{};
   for (std::size_t odd = 0; odd < 2; ++odd) {
     all[odd][0] = {1, {0, 0, 0}};
     for (std::size_t which = 0; which < 2; ++which) {
@@ -38,6 +40,9 @@ constexpr std::array<std::array<PartCorners, 6>, 2> parts_by_parity = [] {
     }
     all[odd][3] = {2, {0, 1, 0}}, all[odd][4] = {2, {0, 2, 0}};
     all[odd][5] = odd == 0 ? PartCorners{2, {0, 3, 0}} : PartCorners{2, {1, 2, 0}};
+    all[odd][right_particle] = {1, {1, 0, 0}}, all[odd][below_particle] = {1, {2, 0, 0}};
+    all[odd][last_particle] = {1, {3, 0, 0}};
+    all[odd][below_edge] = {2, {2, 3, 0}}, all[odd][right_edge] = {2, {1, 3, 0}};
   }
   return all;
 }();
@@ -45,10 +50,13 @@ constexpr std::array<std::array<PartCorners, 6>, 2> parts_by_parity = [] {
 }  // namespace
 
 NearPairs::NearPairs(const Lattice& lattice)
-    : lattice_(lattice),
-      block_rows_((lattice.rows + side - 1) / side),
-      block_columns_((lattice.columns + side - 1) / side) {
-  for (int n = 0; n < own; ++n) offsets_[std::size_t(n)] = n / span * lattice.columns + n % span;
+    : lattice_(lattice.sites()),
+      block_rows_((lattice_.rows + side - 1) / side),
+      block_columns_((lattice_.columns + side - 1) / side) {
+  for (int site = 0; site < sites; ++site)
+    for (int n = 0; n < corners_of_cell; ++n)
+      offsets_[std::size_t(corners_of_cell * site + n)] =
+          (site / side + n / 2) * lattice_.columns + site % side + n % 2;
 }
 
 void NearPairs::set_distances(double L, double reach) {
@@ -61,12 +69,10 @@ const std::array<NearPairs::Part, std::size_t(NearPairs::sites* NearPairs::parts
     std::array<Part, std::size_t(sites * parts_of_site)> parts;
     for (int site = 0; site < sites; ++site)
       for (int n = 0; n < parts_of_site; ++n) {
-        const int i = site / side, j = site % side;
-        const PartCorners& corners = parts_by_parity[std::size_t((i + j) % 2)][std::size_t(n)];
+        const PartCorners& of = parts_by_parity[std::size_t((site / side + site) % 2)][std::size_t(n)];
         Part& part = parts[std::size_t(site * parts_of_site + n)];
-        part.count = corners.count;
-        for (std::size_t k = 0; k < 3; ++k)
-          part.at[k] = std::uint8_t((i + corners.at[k] / 2) * span + j + corners.at[k] % 2);
+        part.count = of.count;
+        for (std::size_t k = 0; k < 3; ++k) part.at[k] = std::uint8_t(corners_of_cell * site + of.at[k]);
       }
     return parts;
   }();
@@ -77,7 +83,9 @@ const std::array<NearPairs::Part, std::size_t(NearPairs::sites* NearPairs::parts
 void NearPairs::find_parts(const Tears& tears) {
   const int columns = lattice_.columns;
   used_parts_.assign(std::size_t(lattice_.size()), 0);
-  const auto use = [&](int site, int part) { used_parts_[std::size_t(site)] |= std::uint8_t(1 << part); };
+  places_of_.clear(), places_.clear(), sites_of_copies_.clear();
+  if (tears.mesh() != nullptr) return find_parts(*tears.mesh());
+  const auto use = [&](int site, int part) { used_parts_[std::size_t(site)] |= std::uint16_t(1 << part); };
   for (int i = 0; i + 1 < lattice_.rows; ++i)
     for (int j = 0; j + 1 < columns; ++j)
       for (const int which : {0, 1}) {
@@ -93,6 +101,95 @@ void NearPairs::find_parts(const Tears& tears) {
           if (from.dj == to.dj) use(quad + from.dj, 4);
         }
       }
+}
+
+/// Those of a parted cloth: of all its cells.
+void NearPairs::find_parts(const Mesh& mesh) {
+  const int columns = lattice_.columns;
+  const auto use = [&](int i, int j, int part) {
+    used_parts_[std::size_t(i * columns + j)] |= std::uint16_t(1 << part);
+  };
+  const auto has_cell = [&](int i, int j) { return lattice_.contains(i, j) && lattice_.contains(i + 1, j + 1); };
+  // Each particle at one of its cells.
+  constexpr std::array particle_at{last_particle, below_particle, right_particle, 0};  // by the cell's number
+  for (int site = 0; site < lattice_.size(); ++site) {
+    const int i = site / columns, j = site % columns;
+    if (!mesh.parted(site)) {
+      use(i, j, 0);
+      continue;
+    }
+    const unsigned cells = mesh.cells_at(site);
+    for (int cell = Mesh::cells_round - 1; cell >= 0; --cell) {
+      bool known = (cells >> cell & 1) == 0;
+      for (int other = cell + 1; other < Mesh::cells_round; ++other)
+        known = known || ((cells >> other & 1) != 0 && mesh.holder(site, other) == mesh.holder(site, cell));
+      const Corner offset = offset_of_cell(cell);
+      if (!known) use(i + offset.di, j + offset.dj, particle_at[std::size_t(cell)]);
+    }
+  }
+  // Each edge at the cell below it or to its right, and where that has other particles, or is none, also at the other.
+  const auto use_edge = [&](int i, int j, int part, Corner end, int ni, int nj, int other_part, Corner from,
+                            Corner to) {
+    const bool whole = !mesh.parted(i * columns + j) && !mesh.parted((i + end.di) * columns + j + end.dj);
+    const bool here = has_cell(i, j), there = has_cell(ni, nj);
+    if (whole || here) use(i, j, part);
+    if (whole || !there) return;
+    const bool same = here && mesh.corner(i, j, {0, 0}) == mesh.corner(ni, nj, from) &&
+                      mesh.corner(i, j, end) == mesh.corner(ni, nj, to);
+    if (!same) use(ni, nj, other_part);
+  };
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      if (has_cell(i, j)) use(i, j, 1), use(i, j, 2), use(i, j, 5);
+      if (j + 1 < columns) use_edge(i, j, 3, {0, 1}, i - 1, j, below_edge, {1, 0}, {1, 1});
+      if (i + 1 < lattice_.rows) use_edge(i, j, 4, {1, 0}, i, j - 1, right_edge, {0, 1}, {1, 1});
+    }
+  find_places(mesh);
+}
+
+/// Calls visit(block) for each block that has a site among the corners of its cells.
+template <class Visit>
+void NearPairs::for_each_block_of(int site, const Visit& visit) const {
+  const int i = site / lattice_.columns, j = site % lattice_.columns;
+  for (int block_i = std::max(i - 1, 0) / side; block_i <= i / side; ++block_i)
+    for (int block_j = std::max(j - 1, 0) / side; block_j <= j / side; ++block_j)
+      visit(block_i * block_columns_ + block_j);
+}
+
+/// The particles of blocks that have parted sites.
+void NearPairs::find_places(const Mesh& mesh) {
+  places_of_.assign(std::size_t(block_rows_) * std::size_t(block_columns_), -1);
+  for (int copy = lattice_.size(); copy < mesh.particles(); ++copy) sites_of_copies_.push_back(mesh.site(copy));
+  for (const int site : mesh.parted_sites())
+    for_each_block_of(site, [&](int block) {
+      std::int32_t& at = places_of_[std::size_t(block)];
+      if (at >= 0) return;
+      at = std::int32_t(places_.size());
+      Places& places = places_.emplace_back();
+      for (int n = 0; n < sites * corners_of_cell; ++n) {
+        const int i = block / block_columns_ * side + n / corners_of_cell / side,
+                  j = block % block_columns_ * side + n / corners_of_cell % side;
+        const Corner corner{n % corners_of_cell / 2, n % 2};
+        const bool is_cell = lattice_.contains(i, j) && lattice_.contains(i + 1, j + 1);
+        const int last_row = lattice_.rows - 1, last_column = lattice_.columns - 1;
+        places[std::size_t(n)] =
+            is_cell ? mesh.corner(i, j, corner)
+                    : std::min(i + corner.di, last_row) * lattice_.columns + std::min(j + corner.dj, last_column);
+      }
+    });
+}
+
+/// Copies are in boxes, too; value(component, particle).
+template <class Value>
+void NearPairs::include_copies(Box Block::*box, const Value& value) {
+  for (std::size_t n = 0; n < sites_of_copies_.size(); ++n)
+    for_each_block_of(sites_of_copies_[n], [&](int block) {
+      Box& to = blocks_[std::size_t(block)].*box;
+      for (int c = 0; c < 3; ++c) {
+        const float one = value(std::size_t(c), std::size_t(lattice_.size()) + n);
+        to.least[c] = std::min(to.least[c], one), to.most[c] = std::max(to.most[c], one);
+      }
+    });
 }
 
 /// Puts positions into here_. Returns false where they are out of what the bounds of rounding allow for.
@@ -143,6 +240,7 @@ void NearPairs::refit_all() {
     const float* row = row_of(c, i);
     return [=](int j) { return row[j]; };
   });
+  include_copies(&Block::at, [&](std::size_t c, std::size_t particle) { return here_[c][particle]; });
   refit(&Block::along, rows, columns - 1, [&](int c, int i) {
     const float* row = row_of(c, i);
     return [=](int j) { return row[j + 1] - row[j]; };
@@ -177,7 +275,7 @@ void NearPairs::begin_anew(Vectors x) {
 }
 
 void NearPairs::follow(const Tears& tears, Vectors x) {
-  assert(x.size() == std::size_t(lattice_.size()) && tears.lattice().rows == lattice_.rows);
+  assert(x.size() >= std::size_t(tears.particles()) && tears.lattice().sites() == lattice_);
   if (known_torn_ != tears.torn_count()) {
     known_torn_ = -1;
     find_parts(tears);
@@ -202,6 +300,8 @@ void NearPairs::follow(Vectors x) {
                   *then = last_[std::size_t(c)].data() + std::ptrdiff_t(i) * columns;
       return [=](int j) { return now[j] - then[j]; };
     });
+    include_copies(&Block::moved,
+                   [&](std::size_t c, std::size_t particle) { return here_[c][particle] - last_[c][particle]; });
     Box all = blocks_.front().moved;
     for (const Block& block : blocks_) all = both(all, block.moved);
     search_left_ -= approach(all, all);
@@ -290,8 +390,11 @@ double NearPairs::apart(const List& list) const {
     const glm::vec3 off = glm::max(glm::max(a.at.least - b.at.most, b.at.least - a.at.most), glm::vec3(0));
     return double(glm::length(off));
   }
-  const Block &left = blocks_[std::size_t(list.a / block_columns_ * block_columns_ + list.b % block_columns_)],
-              &right = blocks_[std::size_t(list.b / block_columns_ * block_columns_ + list.a % block_columns_)];
+  const int of_left = list.a / block_columns_ * block_columns_ + list.b % block_columns_,
+            of_right = list.b / block_columns_ * block_columns_ + list.a % block_columns_;
+  // Where the cloth has parted there is no way from site to site.
+  if (parted(list.a) || parted(list.b) || parted(of_left) || parted(of_right)) return 0;
+  const Block &left = blocks_[std::size_t(of_left)], &right = blocks_[std::size_t(of_right)];
   return spread(both(both(a.along, b.along), both(left.along, right.along)),
                 both(both(a.down, b.down), both(left.down, right.down)));
 }
@@ -299,15 +402,44 @@ double NearPairs::apart(const List& list) const {
 /// Numbers along some directions at once.
 using Lanes = std::array<float, 4>;
 
-/// The two kinds of pairs that parts of two sites make, by the parts' numbers.
-constexpr std::array<std::array<int, 2>, 13> kinds_of_pairs{
-    {{0, 1}, {0, 2}, {1, 0}, {2, 0}, {3, 3}, {3, 4}, {3, 5}, {4, 3}, {4, 4}, {4, 5}, {5, 3}, {5, 4}, {5, 5}}};
-constexpr unsigned all_pairs = (1u << kinds_of_pairs.size()) - 1, own_pairs = 3;  // of one site: not twice
+/// The two kinds of pairs that parts of two sites make, by the parts' numbers: first those of parts that every cloth
+/// has.
+constexpr std::array<int, 4> particles_of_site{0, right_particle, below_particle, last_particle};
+constexpr std::array<int, 5> edges_of_site{3, 4, 5, below_edge, right_edge};
+constexpr std::size_t whole_kinds = 13, all_kinds = 41;
+constexpr std::array<std::array<int, 2>, all_kinds> kinds_of_pairs = [] {
+  std::array<std::array<int, 2>, all_kinds> kinds{};
+  std::size_t count = 0;
+  for (const bool whole : {true, false}) {
+    const auto add = [&](int first, int second) {
+      if ((first < right_particle && second < right_particle) == whole) kinds[count++] = {first, second};
+    };
+    for (const int particle : particles_of_site)
+      for (const int triangle : {1, 2}) add(particle, triangle), add(triangle, particle);
+    for (const int edge : edges_of_site)
+      for (const int other : edges_of_site) add(edge, other);
+    if (whole && count != whole_kinds) throw count;
+  }
+  return kinds;
+}();
+constexpr std::uint64_t all_pairs = (std::uint64_t(1) << all_kinds) - 1,
+                        whole_pairs = (std::uint64_t(1) << whole_kinds) - 1;
+/// Of one site: not twice.
+constexpr std::uint64_t own_pairs = [] {
+  std::uint64_t own = 0;
+  for (std::size_t kind = 0; kind < all_kinds; ++kind) {
+    const auto& [first, second] = kinds_of_pairs[kind];
+    const bool particle = first == 0 || (first >= right_particle && first <= last_particle);
+    const bool edges = first != 1 && first != 2 && !particle;
+    if (particle || (edges && first < second)) own |= std::uint64_t(1) << kind;
+  }
+  return own;
+}();
 
-/// Which of them share no particle, as bits, by the first site's parity and how many rows and columns the second is
-/// behind it, from -1 to 1.
+/// Which of them share no site, as bits, by the first site's parity and how many rows and columns the second is behind
+/// it, from -1 to 1.
 constexpr auto apart_by_offset = [] {
-  std::array<std::array<std::array<unsigned, 3>, 3>, 2> table{};
+  std::array<std::array<std::array<std::uint64_t, 3>, 3>, 2> table{};
   for (int odd = 0; odd < 2; ++odd)
     for (int di = -1; di <= 1; ++di)
       for (int dj = -1; dj <= 1; ++dj)
@@ -320,18 +452,19 @@ constexpr auto apart_by_offset = [] {
               const int from = one.at[std::size_t(k)], to = other.at[std::size_t(l)];
               shared = shared || (from / 2 == di + to / 2 && from % 2 == dj + to % 2);
             }
-          if (!shared) table[std::size_t(odd)][std::size_t(di + 1)][std::size_t(dj + 1)] |= 1u << kind;
+          if (!shared) table[std::size_t(odd)][std::size_t(di + 1)][std::size_t(dj + 1)] |= std::uint64_t(1) << kind;
         }
   return table;
 }();
 
 /// The sites of a block, as floats.
 struct NearPairs::Sites {
-  std::array<glm::vec3, own> at;
-  std::array<std::array<float, sites>, 3> least, most;  ///< of the particles of each site
-  std::array<std::uint8_t, sites> used;                 ///< the bits of its parts
-  unsigned used_sites;                                  ///< those with any, as bits
+  std::array<glm::vec3, std::size_t(sites* corners_of_cell)> at;  ///< by their places
+  std::array<std::array<float, sites>, 3> least, most;            ///< of the particles of each site
+  std::array<std::uint16_t, sites> used;                          ///< the bits of its parts
+  unsigned used_sites;                                            ///< those with any, as bits
   int block = -1;
+  bool parted;
   int row, column;                        ///< of its first site in the lattice
   std::array<Box, quarters> along, down;  ///< steps in its quarters
 };
@@ -339,7 +472,7 @@ struct NearPairs::Sites {
 /// Finds the pairs of two blocks whose distance along none of some directions is larger than `within`.
 class NearPairs::Maker {
  public:
-  explicit Maker(const NearPairs& of) : of_(of), per_unit_(float(65536 / of.L_)), margin_(float(of.rounding_)) {}
+  explicit Maker(const NearPairs& of) : of_(of), per_unit_(float(bound_per_L / of.L_)), margin_(float(of.rounding_)) {}
 
   /// Until the next call.
   const std::vector<Pair>& find(const List& list, double within) {
@@ -372,27 +505,38 @@ class NearPairs::Maker {
   struct Extent {
     Lanes least, most;
   };
-  using Corners = std::array<glm::vec3, 4>;
+  using Corners = std::array<glm::vec3, std::size_t(corners_of_cell)>;
   using Extents = std::array<Extent, std::size_t(parts_of_site)>;
 
   void gather(int block, Sites& to) const {
     if (to.block == block) return;
     const NearPairs& of = of_;
     to.block = block, to.row = block / of.block_columns_ * side, to.column = block % of.block_columns_ * side;
-    to.used_sites = 0;
+    to.used_sites = 0, to.parted = of.parted(block);
     const int columns = of.lattice_.columns;
-    for (int n = 0; n < own; ++n) {
-      const int i = std::min(to.row + n / span, of.lattice_.rows - 1), j = std::min(to.column + n % span, columns - 1);
-      const std::size_t p = std::size_t(i) * std::size_t(columns) + std::size_t(j);
-      to.at[std::size_t(n)] = {of.here_[0][p], of.here_[1][p], of.here_[2][p]};
+    const auto place = [&](std::size_t p) { return glm::vec3(of.here_[0][p], of.here_[1][p], of.here_[2][p]); };
+    if (to.parted) {
+      const Particles particles = of.particles_of(block);
+      for (std::size_t n = 0; n < to.at.size(); ++n) to.at[n] = place(std::size_t(particles[n]));
+    } else {
+      std::array<glm::vec3, std::size_t(span * span)> grid;
+      for (int n = 0; n < span * span; ++n) {
+        const int i = std::min(to.row + n / span, of.lattice_.rows - 1),
+                  j = std::min(to.column + n % span, columns - 1);
+        grid[std::size_t(n)] = place(std::size_t(i) * std::size_t(columns) + std::size_t(j));
+      }
+      for (int site = 0; site < sites; ++site)
+        for (int n = 0; n < corners_of_cell; ++n)
+          to.at[std::size_t(corners_of_cell * site + n)] =
+              grid[std::size_t((site / side + n / 2) * span + site % side + n % 2)];
     }
     for (int site = 0; site < sites; ++site) {
       const int i = to.row + site / side, j = to.column + site % side;
       to.used[std::size_t(site)] = of.lattice_.contains(i, j) ? of.used_parts_[std::size_t(i * columns + j)] : 0;
       if (to.used[std::size_t(site)] != 0) to.used_sites |= 1u << site;
-      const glm::vec3 *upper = &to.at[std::size_t(site / side * span + site % side)], *lower = upper + span;
-      const glm::vec3 least = glm::min(glm::min(upper[0], upper[1]), glm::min(lower[0], lower[1])),
-                      most = glm::max(glm::max(upper[0], upper[1]), glm::max(lower[0], lower[1]));
+      const glm::vec3* at = &to.at[std::size_t(corners_of_cell * site)];
+      const glm::vec3 least = glm::min(glm::min(at[0], at[1]), glm::min(at[2], at[3])),
+                      most = glm::max(glm::max(at[0], at[1]), glm::max(at[2], at[3]));
       for (int c = 0; c < 3; ++c)
         to.least[std::size_t(c)][std::size_t(site)] = least[c], to.most[std::size_t(c)][std::size_t(site)] = most[c];
     }
@@ -418,18 +562,17 @@ class NearPairs::Maker {
     for (int n = 0; n < quarters; ++n) {
       Box &along = to.along[std::size_t(n)], &down = to.down[std::size_t(n)];
       along = down = {glm::vec3(infinity), glm::vec3(-infinity)};
-      const glm::vec3* first = &to.at[std::size_t(n / 2 * half * span + n % 2 * half)];
-      for (int i = 0; i <= half; ++i)
-        for (int j = 0; j <= half; ++j) {
-          const glm::vec3* here = first + i * span + j;
-          if (j < half) add(along, here[1] - here[0]);
-          if (i < half) add(down, here[span] - here[0]);
-        }
+      for (const int site : sites_of(n)) {
+        const glm::vec3* at = &to.at[std::size_t(corners_of_cell * site)];
+        add(along, at[1] - at[0]), add(along, at[3] - at[2]);
+        add(down, at[2] - at[0]), add(down, at[3] - at[1]);
+      }
     }
   }
 
   /// Whether the cloth of two quarters side by side is so even that no parts of them are near.
   bool is_even(int n, int m) const {
+    if (a_.parted || b_.parted) return false;
     const int rows = (b_.row - a_.row) / half + m / 2 - n / 2, columns = (b_.column - a_.column) / half + m % 2 - n % 2;
     if (std::abs(rows) > 1 || std::abs(columns) > 1) return false;
     Box along = both(a_.along[std::size_t(n)], b_.along[std::size_t(m)]),
@@ -449,9 +592,9 @@ class NearPairs::Maker {
   }
 
   /// As seen from there.
-  static Corners corners(const Sites& of, int site, const glm::vec3& from) {
-    const glm::vec3 *upper = &of.at[std::size_t(site / side * span + site % side)], *lower = upper + span;
-    return {upper[0] - from, upper[1] - from, lower[0] - from, lower[1] - from};
+  static Corners corners_of(const Sites& of, int site, const glm::vec3& from) {
+    const glm::vec3* at = &of.at[std::size_t(corners_of_cell * site)];
+    return {at[0] - from, at[1] - from, at[2] - from, at[3] - from};
   }
 
   /// Some directions: the line between the middles, and the normals of both quads and a side; of quads side by side the
@@ -490,9 +633,9 @@ class NearPairs::Maker {
       extent.least[n] = std::min(extent.least[n], at[n]), extent.most[n] = std::max(extent.most[n], at[n]);
   }
 
-  static Extents extents(const std::array<Lanes, 4>& at, int odd) {
+  static Extents extents(const std::array<Lanes, 4>& at, int odd, bool parted) {
     Extents extents;
-    for (std::size_t part = 0; part < extents.size(); ++part) {
+    for (std::size_t part = 0; part < std::size_t(parted ? parts_of_site : parts_of_whole); ++part) {
       const PartCorners& of = parts_by_parity[std::size_t(odd)][part];
       extents[part] = {at[std::size_t(of.at[0])], at[std::size_t(of.at[0])]};
       for (int k = 1; k < of.count; ++k) include(extents[part], at[std::size_t(of.at[std::size_t(k)])]);
@@ -516,22 +659,24 @@ class NearPairs::Maker {
     const int rows = b_.row + m / side - a_.row - n / side, columns = b_.column + m % side - a_.column - n % side;
     const int odd_a = (n / side + n) % 2, odd_b = (m / side + m) % 2;
     const bool beside = std::abs(rows) <= 1 && std::abs(columns) <= 1;
-    unsigned kinds =
+    std::uint64_t kinds =
         beside ? apart_by_offset[std::size_t(odd_a)][std::size_t(rows + 1)][std::size_t(columns + 1)] : all_pairs;
+    if (!a_.parted && !b_.parted) kinds &= whole_pairs;
     if (same_ && n == m) kinds &= own_pairs;
-    const glm::vec3& from = a_.at[std::size_t(n / side * span + n % side)];
-    const Corners a = corners(a_, n, from), b = corners(b_, m, from);
+    const glm::vec3& from = a_.at[std::size_t(corners_of_cell * n)];
+    const Corners a = corners_of(a_, n, from), b = corners_of(b_, m, from);
     const auto along = directions_of(a, b, beside);
     const auto at_a = seen(a, along), at_b = seen(b, along);
     if (!beside && gap(extent(at_a), extent(at_b)) > within_) return;
-    const Extents of_a = extents(at_a, odd_a), of_b = extents(at_b, odd_b);
+    const Extents of_a = extents(at_a, odd_a, a_.parted), of_b = extents(at_b, odd_b, b_.parted);
     for (; kinds != 0; kinds &= kinds - 1) {
       const auto& [first, second] = kinds_of_pairs[std::size_t(std::countr_zero(kinds))];
       if ((a_.used[std::size_t(n)] >> first & 1) == 0 || (b_.used[std::size_t(m)] >> second & 1) == 0) continue;
       const float apart = gap(of_a[std::size_t(first)], of_b[std::size_t(second)]);
       if (apart > within_) continue;
-      const float bound = std::max(apart - margin_, 0.0f) * per_unit_;
-      pairs_.emplace_back(n * parts_of_site + first, m * parts_of_site + second, std::uint32_t(bound));
+      const float bound = std::min(std::max(apart - margin_, 0.0f) * per_unit_, float(most_bound));
+      pairs_.push_back(
+          {std::uint8_t(n * parts_of_site + first), std::uint8_t(m * parts_of_site + second), std::uint16_t(bound)});
     }
   }
 
@@ -553,7 +698,7 @@ void NearPairs::make(List& list, Maker& maker) {
       certain ? std::span<const Pair>() : maker.find(list, reach_ + list.left + rounding_);
   if (list.pairs.capacity() > 2 * pairs.size()) list.pairs = {};
   list.pairs.assign(pairs.begin(), pairs.end());
-  for (const Pair& pair : pairs) list.least = std::min(list.least, float(pair.bound() * (L_ / 65536) * (1 - 1e-6)));
+  for (const Pair& pair : pairs) list.least = std::min(list.least, float(pair.bound * (L_ / bound_per_L) * (1 - 1e-6)));
 }
 
 /// All whose use is over, and of those that cost little to make all whose use is nearly over.
@@ -570,7 +715,9 @@ std::int64_t NearPairs::size() const {
 }
 
 std::size_t NearPairs::bytes() const {
-  std::size_t total = used_parts_.capacity() + blocks_.capacity() * sizeof(Block) + lists_.capacity() * sizeof(List);
+  std::size_t total = used_parts_.capacity() * sizeof(used_parts_[0]) + places_of_.capacity() * sizeof(places_of_[0]) +
+                      places_.capacity() * sizeof(Places) + sites_of_copies_.capacity() * sizeof(sites_of_copies_[0]) +
+                      blocks_.capacity() * sizeof(Block) + lists_.capacity() * sizeof(List);
   for (const List& list : lists_) total += list.pairs.capacity() * sizeof(Pair);
   for (const auto* positions : {&here_, &last_})
     for (const auto& one : *positions) total += one.capacity() * sizeof(float);

@@ -140,7 +140,6 @@ std::string parting_problem(const Preset& p) {
     return "tearing.mode: split does not go with " + what + " yet; use springs";
   };
   if (p.columns < 2) return "tearing.mode: a cloth that parts needs at least 2 columns; use springs";
-  if (touches_itself(p)) return beside("contact.self " + p.self) + ", or contact.self off";
   if (force::curl.on(p)) return beside("a curvature at rest (kappa_warp, kappa_weft)");
   if (parts_cloth(scheme(p.integrator))) return {};
   std::vector<std::string_view> can;

@@ -3,9 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,11 +15,13 @@
 #include "core/contact/crossings.h"
 #include "core/engines/plain/plain_cloth.h"
 #include "core/forces/parted.h"
+#include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/output/obj.h"
 #include "core/output/state_csv.h"
 #include "core/simulation.h"
 #include "core/step_trace.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::parted_test {
@@ -237,6 +241,87 @@ TEST_CASE("implicit methods keep the momentum of a sheet that tears in flight, a
     // Up to the tolerance of the solves.
     CHECK(glm::distance(momentum(), before) < 1e-7 * glm::length(before) + 1e-9);
   }
+}
+
+/// A sheet that is thrown together after it has been cut in several places.
+std::unique_ptr<Simulation> thrown_together(Preset p, int threads = 1) {
+  p.tearing = "split", p.k_s = 60, p.k_d = 2e-4, p.L = 0.02, p.m = 2e-4, p.g = 0;
+  auto thrown = std::make_unique<Simulation>(p, threads);
+  Simulation& simulation = *thrown;
+  for (int j : {3, 7}) simulation.apply(edit::Cut{{{2, j}, {3, j}, {4, j}, {5, j}, {6, j}, {7, j}, {8, j}}});
+  State state = simulation.read();
+  Random random(5);
+  for (int n = 0; n < simulation.tears().particles(); ++n) {
+    const auto at = std::size_t(n);
+    state.v.x[at] = random.uniform(-3, 3) - 20 * (state.x.x[at] - 0.12);
+    state.v.y[at] = random.uniform(-3, 3) - 20 * (state.x.y[at] - p.x_0.y);
+    state.v.z[at] = random.uniform(-3, 3);
+  }
+  simulation.load(state);
+  return thrown;
+}
+
+TEST_CASE("with the guard a cloth that has parted meets itself, and crosses nowhere but around its cuts") {
+  for (const Scheme& method : schemes()) {
+    if (!parts_cloth(method)) continue;
+    CAPTURE(std::string(method.name));
+    Preset p = test::quiet_cloth(12, 12, std::string(method.name));
+    p.self = "guard", p.dt = is_implicit(method) ? 1.0 / 240 : 2e-4;
+    const auto thrown = thrown_together(p);
+    Simulation& simulation = *thrown;
+    CHECK(simulation.tears().particles() > 12 * 12 + 8);
+    for (int look = 0; look < test::fewer(20, 3); ++look) {
+      simulation.advance(is_implicit(method) ? 2 : 20);
+      if (simulation.divergence()) break;
+      const Crossings crossings = count_crossings(simulation.read().x, simulation.tears());
+      REQUIRE(crossings.pairs == crossings.around_sites);
+    }
+    if (method.name != "verlet") continue;
+    CHECK_FALSE(simulation.divergence());
+    CHECK(simulation.engine().held_back() > 0);
+  }
+}
+
+TEST_CASE("contact of a parted cloth: the CPU engine is the plain one, with any threads, and pushes off nothing") {
+  for (const char* self : {"repel", "guard"}) {
+    CAPTURE(std::string(self));
+    Preset p = test::quiet_cloth(12, 12);
+    p.self = self, p.self_friction = 0.3, p.dt = 2e-4;
+    Preset other = p;
+    other.engine = EngineKind::plain;
+    const std::array all{thrown_together(p), thrown_together(p, 2), thrown_together(other)};
+    Simulation &fast = *all[0], &threads = *all[1], &plain = *all[2];
+    const auto momentum = [](Simulation& of) {
+      glm::dvec3 sum{0};
+      for (int n = 0; n < of.tears().particles(); ++n)
+        sum += of.preset().m * of.tears().share(n) * test::velocity(of.read(), std::size_t(n));
+      return sum;
+    };
+    const glm::dvec3 before = momentum(fast);
+    double met = 0;
+    for (int n = 0; n < 10; ++n) {
+      for (Simulation* one : {&fast, &threads, &plain}) one->advance(10);
+      met += fast.energy().energy.of[force::self];
+    }
+    CHECK(met > 0);
+    CHECK(test::identical(fast.read(), threads.read()));
+    const Vectors a = vectors(fast.read().x), b = vectors(plain.read().x);
+    double apart = 0;
+    for (std::size_t n = 0; n < a.size(); ++n) apart = std::max(apart, glm::distance(a[n], b[n]));
+    CHECK(apart < 1e-9);
+    if (std::string(self) == "repel") CHECK(glm::distance(momentum(fast), before) < 1e-12);
+  }
+}
+
+TEST_CASE("a piece of a parted cloth falls as fast as it likes, whatever guards it") {
+  Preset p = test::quiet_cloth(10, 10);
+  p.tearing = "split", p.self = "guard", p.g = 9.82, p.dt = 1e-3, p.v_0 = {0, -30, 4};
+  Simulation simulation(p, 1);
+  simulation.apply(edit::Cut{{{3, 2}, {3, 3}, {3, 4}, {3, 5}}});
+  const double from = simulation.position(5, 5).y;
+  simulation.advance(500);
+  CHECK(simulation.engine().held_back() == 0);
+  CHECK(simulation.position(5, 5).y == doctest::Approx(from - 15 - 9.82 / 8).epsilon(1e-9));
 }
 
 /// Σ m v of all particles, kg m/s.
@@ -534,9 +619,7 @@ TEST_CASE("what cannot part is refused, with the cure") {
   CHECK(with_settings(Preset{}, {"mode=3"}).mode == 3);
   p.integrator = "vbd";
   CHECK(check_preset(p).find("tearing.mode: vbd does not part the cloth; methods that do: euler") == 0);
-  p.integrator = "verlet", p.self = "repel";
-  CHECK(check_preset(p).find("tearing.mode: split does not go with contact.self repel yet") == 0);
-  p.self = "off", p.columns = 1;
+  p.integrator = "verlet", p.columns = 1;
   CHECK(check_preset(p).find("tearing.mode: a cloth that parts needs at least 2 columns") == 0);
   p.columns = 5, p.tearing = "splits";
   CHECK(check_preset(p).find("tearing.mode: \"splits\" is not known; did you mean split?") == 0);

@@ -62,31 +62,26 @@ Vectors positions(const State& state) {
   return x;
 }
 
-/// Calls visit(particles, particles of the other, distance) for all pairs, without boxes.
+/// Calls visit(particles, particles of the other, distance) for all pairs that share no site, without boxes.
 template <class Visit>
-void for_all_pairs(const Preset& p, const Tears& tears, const Vectors& x, Visit visit) {
+void for_all_pairs(const Tears& tears, const Vectors& x, Visit visit) {
   using Part = std::vector<int>;
   std::set<Part> of_particles, of_edges, of_triangles;
   const auto add = [](std::set<Part>& parts, Part at) {
     std::sort(at.begin(), at.end());
     parts.insert(std::move(at));
   };
-  for (int i = 0; i + 1 < p.rows; ++i)
-    for (int j = 0; j + 1 < p.columns; ++j)
-      for (const Stencil& stencil : triangle_stencils()) {
-        if (!stencil.acts(tears, i, j)) continue;
-        std::vector<int> at;
-        for (int n = 0; n < 3; ++n)
-          at.push_back((i + stencil.at[std::size_t(n)].di) * p.columns + j + stencil.at[std::size_t(n)].dj);
-        add(of_triangles, at);
-        for (int n = 0; n < 3; ++n)
-          add(of_particles, {at[std::size_t(n)]}), add(of_edges, {at[std::size_t(n)], at[std::size_t((n + 1) % 3)]});
-      }
+  for_each_triangle(tears, [&](int a, int b, int c, int, int, int) {
+    add(of_triangles, {a, b, c});
+    for (const Part& corner : {Part{a}, Part{b}, Part{c}}) add(of_particles, corner);
+    for (const Part& edge : {Part{a, b}, Part{b, c}, Part{c, a}}) add(of_edges, edge);
+  });
+  const auto site = [&](int particle) { return tears.mesh() != nullptr ? tears.mesh()->site(particle) : particle; };
   const std::vector<Part> particles(of_particles.begin(), of_particles.end()), edges(of_edges.begin(), of_edges.end()),
       triangles(of_triangles.begin(), of_triangles.end());
   const auto meet = [&](const Part& a, const Part& b) {
     for (const int one : a)
-      if (std::find(b.begin(), b.end(), one) != b.end()) return;
+      if (std::any_of(b.begin(), b.end(), [&](int other) { return site(one) == site(other); })) return;
     const auto place = [&](const Part& part, std::size_t n) { return x[std::size_t(part[n])]; };
     const Gap gap = a.size() == 1 ? gap_to_triangle(place(a, 0), {place(b, 0), place(b, 1), place(b, 2)})
                                   : gap_of_edges({place(a, 0), place(a, 1)}, {place(b, 0), place(b, 1)});
@@ -102,7 +97,7 @@ void for_all_pairs(const Preset& p, const Tears& tears, const Vectors& x, Visit 
 double energy_of_all_pairs(const Preset& p, const Tears& tears, const Vectors& x) {
   const double d = 2 * contact_thickness(p), k = spring_constants(p).largest();
   double energy = 0;
-  for_all_pairs(p, tears, x, [&](const auto&, const auto&, double distance) {
+  for_all_pairs(tears, x, [&](const auto&, const auto&, double distance) {
     if (const double s = d - distance; s > 0) energy += k * std::pow(s, 4) / (d * d);
   });
   return energy;
@@ -156,6 +151,49 @@ TEST_CASE("boxes lose no pair that a look at every pair finds: crumpled, folded,
   CHECK(most > 0);
 }
 
+/// A mesh with random openings.
+Tears randomly_parted(const Preset& p, int openings, Random& random) {
+  auto mesh = std::make_shared<Mesh>(lattice_of(p));
+  for (int n = 0; n < openings; ++n) {
+    const int particle = random.below(mesh->particles());
+    const unsigned all = mesh->cells_of(particle), some = all & unsigned(random.below(16));
+    if (some != 0 && some != all) mesh->part(particle, some);
+  }
+  Lattice lattice = lattice_of(p);
+  while (lattice.size() < mesh->particles()) ++lattice.rows, ++lattice.copy_rows;
+  return {lattice, mesh};
+}
+
+TEST_CASE("boxes lose no pair of a parted cloth, however it moves") {
+  for (int n = 0; n < 24; ++n) {
+    CAPTURE(n);
+    const Preset p = sheet(5 + n % 9, 4 + n % 11, "repel");
+    Random random(std::uint64_t(n + 1));
+    const Tears tears = randomly_parted(p, 1 + 3 * n, random);
+    const Vectors whole =
+        positions(n % 2 == 0 ? test::crumpled(p, std::uint64_t(n), 0.1 + 0.02 * n) : folded(p, 0.3 * p.L));
+    Vectors x;
+    // In every third cloth copies have gone far from where they were.
+    const auto is_far = [&](int particle) { return n % 3 == 0 && particle >= p.rows * p.columns; };
+    for (int particle = 0; particle < tears.particles(); ++particle)
+      x.push_back(whole[std::size_t(tears.mesh()->site(particle))] +
+                  random_point(random, (is_far(particle) ? 5 : 0.3) * p.L));
+    SelfContact contact(tears.lattice());
+    contact.set_preset(p, layer_constant(p));
+    for (int move = 0; move < 12; ++move) {
+      contact.follow(tears, x);
+      contact.look(x);
+      Vectors F(x.size(), glm::dvec3(0));
+      const double found = contact.add_forces(F), wanted = energy_of_all_pairs(p, tears, x);
+      REQUIRE(wanted > 0);
+      REQUIRE(found == doctest::Approx(wanted).epsilon(1e-12));
+      for (int particle = 0; particle < tears.particles(); ++particle)
+        x[std::size_t(particle)] +=
+            random_point(random, (move % 3 == 2 ? 0.1 : 0.01) * (is_far(particle) ? 20 : 1) * p.L);
+    }
+  }
+}
+
 /// Moves what is around some particle a little, and turns and moves the whole cloth, which is `flatter` afterwards.
 void stir(const Preset& p, Random& random, double flatter, Vectors& x) {
   const int row = random.below(p.rows), column = random.below(p.columns);
@@ -196,7 +234,7 @@ TEST_CASE("lists that are kept, and made anew only where the cloth has moved, lo
         found.clear();
         kept.measure(below, x, [&](const auto&, const Gap&, double distance) { found.push_back(distance); });
       }
-      for_all_pairs(p, tears, x, [&](const auto&, const auto&, double distance) {
+      for_all_pairs(tears, x, [&](const auto&, const auto&, double distance) {
         if (distance < reach) wanted.push_back(distance);
       });
       std::sort(found.begin(), found.end()), std::sort(wanted.begin(), wanted.end());
@@ -243,7 +281,7 @@ TEST_CASE("the guard cuts ways to what the nearest pair leaves, and no others") 
     const Tears tears(lattice_of(p));
     const Vectors before = positions(folded(p, 0.3 * p.L));
     std::vector<double> room(before.size(), 0.4 * p.L);
-    for_all_pairs(p, tears, before, [&](const auto& a, const auto& b, double distance) {
+    for_all_pairs(tears, before, [&](const auto& a, const auto& b, double distance) {
       for (const auto* part : {&a, &b})
         for (const int at : *part) room[std::size_t(at)] = std::min(room[std::size_t(at)], distance);
     });

@@ -112,7 +112,7 @@ void choose_self_contact(Preset& p, StressRandom& random) {
 
 /// Where springs tear, half of the cloths part.
 void choose_parting(Preset& p, StressRandom& random) {
-  const bool can = parts_cloth(scheme(p.integrator)) && p.self == "off" && !force::curl.on(p) && p.columns > 1;
+  const bool can = parts_cloth(scheme(p.integrator)) && !force::curl.on(p) && p.columns > 1;
   if (can && random.chance(0.5)) p.tearing = "split";
 }
 

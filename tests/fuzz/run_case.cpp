@@ -133,8 +133,8 @@ Preset preset_of(Random& random, bool with_opencl) {
   if (with_opencl && random.below(50) == 0 && runs_on_opencl(scheme(preset.integrator)) &&
       missing_on_opencl(preset) == nullptr)
     preset.engine = EngineKind::opencl;
-  if (preset.F_max > 0 && random.below(2) == 0 && preset.self == "off" && preset.engine == EngineKind::cpu &&
-      !force::curl.on(preset) && preset.columns > 1 && parts_cloth(scheme(preset.integrator)))
+  if (preset.F_max > 0 && random.below(2) == 0 && preset.engine == EngineKind::cpu && !force::curl.on(preset) &&
+      preset.columns > 1 && parts_cloth(scheme(preset.integrator)))
     preset.tearing = "split";
   return preset;
 }

@@ -189,7 +189,7 @@ void Band<R, Present>::forces_on_pair(PairTask<R>& t, const Tears& tears, int i,
 template <class R, unsigned Present>
 void Band<R, Present>::add_near_force(const PairTask<R>& t, int i) {
   for (int row = i; row < std::min(i + 2, cloth_.lattice.rows); ++row) {
-    if (!cloth_.near_rows.empty() && cloth_.near_rows[std::size_t(row)] == 0) continue;
+    if (cloth_.near_rows != nullptr && cloth_.near_rows[row] == 0) continue;
     const R* from = cloth_.near_force->row(row);
     std::transform(t.f[row - i], t.f[row - i] + ring_.pitch(), from, t.f[row - i], std::minus<>());
   }

@@ -89,11 +89,11 @@ struct Cloth {
   bool bodies_move = false;
   int seen_velocity = vector_v;  ///< vector that damping uses at the start of a step
   std::vector<Field> vectors;
-  const Field* near_force = nullptr;    ///< what is added to the forces of the present sweep; null: nothing
-  std::vector<std::uint8_t> near_rows;  ///< not 0: a row of it that has something; empty: all may have
-  std::vector<int> fixed_columns;       ///< columns of pinned and held particles, row by row
-  std::vector<int> fixed_begin;         ///< index of each row's first among them
-  std::vector<std::uint8_t> fixed;      ///< 1 at i·columns + j if pinned or held; empty if none is
+  const Field* near_force = nullptr;        ///< what is added to the forces of the present sweep; null: nothing
+  const std::uint8_t* near_rows = nullptr;  ///< not 0: a row of it that has something; null: all may have
+  std::vector<int> fixed_columns;           ///< columns of pinned and held particles, row by row
+  std::vector<int> fixed_begin;             ///< index of each row's first among them
+  std::vector<std::uint8_t> fixed;          ///< 1 at i·columns + j if pinned or held; empty if none is
   Held held;
 
   Field& vector(int number) {

@@ -226,6 +226,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   // Where the cloth has parted (cpu_loose.cpp).
   void follow_loose(const Tears& tears);
   void find_given_force(const ResolvedSweep& sweep);
+  void find_loose_force(const ResolvedSweep& sweep);
   void add_loose_springs();
   const implicit::Beside* begin_beside();
   void add_loose_couplings(double h, std::vector<implicit::Coupling>& out) const;
@@ -287,6 +288,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   struct Self {
     explicit Self(const Lattice& lattice) : contact(lattice) {}
     SelfContact contact;
+    int particles = 0;
     double way = std::numeric_limits<double>::infinity();  ///< of particles since its list was looked at, m
     std::vector<glm::dvec3> x, v, F;                       ///< v: also positions at the beginning of the step, after it
     bool looked = false;                                   ///< at the positions of the state
@@ -312,7 +314,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
     std::vector<double> per_share;
     std::vector<glm::dvec3> x, v, F;
     Field force;
-    int known_torn = 0;  ///< -1: the constants have changed
+    std::vector<std::uint8_t> rows;  ///< not 0: a row of it that has something
+    int known_torn = 0;              ///< -1: the constants have changed
   };
   Loose loose_;
   implicit::Beside beside_;            ///< what implicit stages are told of both; its particles as of known_torn

@@ -51,9 +51,9 @@ void CpuEngine<R, Present>::follow_loose(const Tears& tears) {
   }
   for (auto* vectors : {&loose.x, &loose.v, &loose.F}) vectors->resize(particles.size());
   loose.force = Field();
-  cloth_.near_rows.assign(particles.empty() ? 0 : std::size_t(cloth_.lattice.rows), 0);
+  loose.rows.assign(particles.empty() ? 0 : std::size_t(cloth_.lattice.rows), 0);
   if (!particles.empty()) loose.force.resize(array_rows(), cloth_.stride);
-  for (const int particle : particles) cloth_.near_rows[std::size_t(particle / cloth_.lattice.columns)] = 1;
+  for (const int particle : particles) loose.rows[std::size_t(particle / cloth_.lattice.columns)] = 1;
   loose.known_torn = tears.torn_count();
 }
 
@@ -77,9 +77,14 @@ void CpuEngine<R, Present>::add_loose_springs() {
 /// Before a sweep: the forces that it adds to those it computes.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::find_given_force(const ResolvedSweep& sweep) {
-  find_near_force(sweep);
+  cloth_.near_force = nullptr;
+  if (!loose_.particles.empty()) find_loose_force(sweep);
+  if (self_ != nullptr) find_near_force(sweep);
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::find_loose_force(const ResolvedSweep& sweep) {
   Loose& loose = loose_;
-  if (loose.particles.empty()) return;
   using Air = ResolvedSweep::Air;
   const auto is_in = [&](const Force& force) {
     if (&force == &force::air ? sweep.air == Air::none : sweep.air == Air::alone) return false;
@@ -105,7 +110,7 @@ void CpuEngine<R, Present>::find_given_force(const ResolvedSweep& sweep) {
     R* to = loose.force.row(0) + loose.places[n];
     for (int c = 0; c < 3; ++c) to[c * component] = R(loose.per_share[n] * loose.F[n][c]);
   }
-  cloth_.near_force = &loose.force;
+  cloth_.near_force = &loose.force, cloth_.near_rows = loose.rows.data();
 }
 
 /// What the next implicit stage has beside the lattice; null: nothing.

@@ -11,12 +11,12 @@ namespace tyglab::cpu {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const {
-  const int columns = cloth_.lattice.columns;
-  out.resize(std::size_t(cloth_.lattice.size()));
-  for (int i = 0; i < cloth_.lattice.rows; ++i) {
+  const int columns = cloth_.lattice.columns, particles = self_->particles;
+  out.resize(std::size_t(particles));
+  for (int first = 0, i = 0; first < particles; first += columns, ++i) {
     const R *x = field.row(i, 0), *y = field.row(i, 1), *z = field.row(i, 2);
-    glm::dvec3* to = out.data() + std::ptrdiff_t(i) * columns;
-    for (int j = 0; j < columns; ++j) to[j] = scale * glm::dvec3(x[j], y[j], z[j]);
+    glm::dvec3* to = out.data() + first;
+    for (int j = 0; j < std::min(columns, particles - first); ++j) to[j] = scale * glm::dvec3(x[j], y[j], z[j]);
   }
 }
 
@@ -24,6 +24,7 @@ void CpuEngine<R, Present>::fetch(const Field& field, double scale, std::vector<
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_self(const Tears& tears) {
   if (self_ == nullptr) return;
+  self_->particles = tears.particles();
   const bool guards = guards_itself(cloth_.preset);
   if (self_->contact.near() || self_->contact.stale(tears, self_->way)) {
     fetch(cloth_.vector(vector_x), 1, self_->x);
@@ -35,11 +36,10 @@ void CpuEngine<R, Present>::begin_self(const Tears& tears) {
   if (self_->looked) self_->contact.look(self_->x, guards);
 }
 
-/// Before a sweep: the forces that it adds to those it computes.
+/// Before a sweep: the forces of layers, which it adds to those it computes, and what loose ones add.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
-  cloth_.near_force = nullptr;
-  if (self_ == nullptr || sweep.external || sweep.air == ResolvedSweep::Air::alone) return;
+  if (sweep.external || sweep.air == ResolvedSweep::Air::alone) return;
   if (!self_->solving && !self_->contact.near()) return;
   std::vector<glm::dvec3>& F = self_->F;
   // The first sweep of a step is at the positions that its beginning has looked at.
@@ -60,13 +60,17 @@ void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
     self_->contact.add_friction(self_->v, F);
   }
   if (self_->force.empty()) self_->force.resize(array_rows(), cloth_.stride);
-  const int columns = cloth_.lattice.columns;
-  for (int i = 0; i < cloth_.lattice.rows; ++i)
+  const int columns = cloth_.lattice.columns, particles = self_->particles;
+  for (std::size_t n = 0; n < loose_.particles.size(); ++n) {
+    glm::dvec3& one = F[std::size_t(loose_.particles[n])];
+    one = loose_.per_share[n] * (one + loose_.F[n]);
+  }
+  for (int first = 0, i = 0; first < particles; first += columns, ++i)
     for (int c = 0; c < 3; ++c) {
       R* row = self_->force.row(i, c);
-      for (int j = 0; j < columns; ++j) row[j] = R(F[std::size_t(i) * std::size_t(columns) + std::size_t(j)][c]);
+      for (int j = 0; j < std::min(columns, particles - first); ++j) row[j] = R(F[std::size_t(first + j)][c]);
     }
-  cloth_.near_force = &self_->force;
+  cloth_.near_force = &self_->force, cloth_.near_rows = nullptr;
 }
 
 /// Before an implicit stage: until it ends, pairs keep their sides.
@@ -106,11 +110,12 @@ bool CpuEngine<R, Present>::end_self() {
   const double way = std::sqrt(3.0) * largest;
   self_->way += way, self_->looked = false;
   if (!guards_itself(cloth_.preset) || way <= self_->contact.least_room()) return false;
-  const int columns = cloth_.lattice.columns;
+  const int columns = cloth_.lattice.columns, absent = cloth_.lattice.size() - self_->particles;
+  const bool free = std::ssize(all_fixed_) == absent;  // nothing is pinned or held
   std::vector<glm::dvec3>& before = self_->v;
   fetch(self_->rows_before, 1, before);
   fetch(cloth_.vector(vector_x), 1, self_->x);
-  const auto held = self_->contact.hold_back(before, self_->x, all_fixed_.empty());
+  const auto held = self_->contact.hold_back(before, self_->x, free);
   self_->way = std::numeric_limits<double>::infinity();
   const glm::dvec3 common = self_->contact.common_way() * (cloth_.velocity_scale() / cloth_.dt);
   for (const auto [particle, part] : held) {

@@ -93,11 +93,14 @@ void Cloth::step(const Tears& tears, double t) {
 void Cloth::hold_back(const Tears& tears, const Vector& x_before) {
   SelfContact contact(tears.lattice());
   contact.set_preset(preset, layer_constant(preset));
-  contact.follow(tears, x_before);
-  contact.look(x_before, true);
-  const bool free = std::all_of(fixed.begin(), fixed.end(), [](std::uint8_t one) { return one == 0; });
+  const auto particles = std::size_t(tears.particles());
+  const std::span<const glm::dvec3> before = std::span(x_before).first(particles);
+  const std::span<glm::dvec3> now = std::span(vectors[vector_x]).first(particles);
+  contact.follow(tears, before);
+  contact.look(before, true);
+  const bool free = std::all_of(fixed.begin(), fixed.begin() + tears.particles(), [](auto one) { return one == 0; });
   const double scale = velocity_scale();
-  for (const auto [particle, part] : contact.hold_back(x_before, vectors[vector_x], free)) {
+  for (const auto [particle, part] : contact.hold_back(before, now, free)) {
     ++held_back;
     if (fixed[std::size_t(particle)] != 0) continue;
     const glm::dvec3 common = contact.common_way() / preset.dt * scale;
