@@ -59,7 +59,7 @@ Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& count
   ++counts.force_evaluations;
   const double last_digits = 4 * rules.epsilon * stage.start_size();
   bool direct = false;  // every stage tries again: a repeated step must give the same bits
-  bool ended = first == 0;
+  bool ended = first <= rules.enough;
   double norm = first;
   for (int n = 0; n < rules.most && !ended && std::isfinite(norm) && (n == 0 || !stage.out_of_time()); ++n) {
     stage.begin_iteration(n, rules.most);
@@ -72,7 +72,7 @@ Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& count
     norm = rules.most == 1 ? take_whole_step(stage, counts) : take_step(stage, step.slope, counts);
     // Velocities have more digits than the positions that they lead to: the residual may still fall.
     const bool still = rules.h * step.size <= last_digits && norm > 0.5 * before;
-    ended = norm <= rules.tolerance * first || still;
+    ended = norm <= std::max(rules.tolerance * first, rules.enough) || still;
   }
   return stage.balance();
 }

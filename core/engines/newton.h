@@ -84,10 +84,11 @@ class ImplicitStage {
 };
 
 struct NewtonRules {
-  int most;          ///< iterations; 1: one linear system, whose solution is taken as it is
-  double tolerance;  ///< relative to the initial |r|, where the iteration ends
-  double epsilon;    ///< of the precision in which the stage is stored
-  double h;          ///< s
+  int most;           ///< iterations; 1: one linear system, whose solution is taken as it is
+  double tolerance;   ///< relative to the initial |r|, where the iteration ends
+  double epsilon;     ///< of the precision in which the stage is stored
+  double h;           ///< s
+  double enough = 0;  ///< |r| at which the iteration ends, too, m/s
 };
 template <class R>
 constexpr double newton_tolerance = sizeof(R) == 8 ? 1e-10 : 1e-5;

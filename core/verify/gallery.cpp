@@ -14,7 +14,7 @@ std::span<const Topic> topics() {
   static const std::array all{
       Topic{"Motion", motion_cases()},       Topic{"Methods", method_cases()},  Topic{"Statics", statics_cases()},
       Topic{"Vibration", vibration_cases()}, Topic{"Bending", bending_cases()}, Topic{"Contact", contact_cases()},
-      Topic{"Tearing", tearing_cases()},
+      Topic{"Tearing", tearing_cases()},     Topic{"Layers", self_cases()},
   };
   return all;
 }

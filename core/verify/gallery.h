@@ -1,7 +1,7 @@
 // The gallery of `tyglab verify`: cases whose answer is exact or published, each measured with the code that everything
 // else runs. A new case is a function and a row in the file of its topic (motion.cpp, methods.cpp, statics.cpp,
-// vibration.cpp, bending.cpp, contact.cpp, tearing.cpp); everything else follows from the row: the command, its JSON,
-// the tests and docs/verification.md, which docs/make_verification writes.
+// vibration.cpp, bending.cpp, contact.cpp, tearing.cpp, self.cpp); everything else follows from the row: the command,
+// its JSON, the tests and docs/verification.md, which docs/make_verification writes.
 #pragma once
 
 #include <functional>
@@ -44,6 +44,7 @@ std::span<const Case> vibration_cases();
 std::span<const Case> bending_cases();
 std::span<const Case> contact_cases();
 std::span<const Case> tearing_cases();
+std::span<const Case> self_cases();
 
 /// The cases of all topics, one after the other.
 std::vector<const Case*> all_cases();

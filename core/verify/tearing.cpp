@@ -1,6 +1,7 @@
 // Cases of cloth that parts.
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <stdexcept>
 #include <vector>
@@ -50,6 +51,7 @@ void cut_piece(Trial& trial) {
     across.reserve(columns);
     for (int j = 0; j < columns; ++j) across.push_back({1, at, j});
     simulation.apply(edit::CutSprings{across});
+    if (simulation.tears().mesh() == nullptr) throw std::runtime_error("nothing has parted");
     const auto below = [&](int n) {
       const int i = simulation.tears().site(n).i;
       return i > at || (i == at && (simulation.tears().mesh()->cells_of(n) & Mesh::down_left) != 0) ||
@@ -110,6 +112,27 @@ void split_energy(Trial& trial) {
   trial.show(simulation);  // nothing has moved
 }
 
+void split_area(Trial& trial) {
+  constexpr int rows = 11, columns = 12;
+  Preset preset = quiet_cloth(rows, columns, "verlet");
+  preset.tearing = "split", preset.initial_stretch = 1.2, preset.dt = 1e-4;
+  Simulation simulation = trial.start(preset);
+  std::vector<SpringSite> springs;
+  for (int i = 1; i < 9; ++i) springs.push_back({0, i, 3 + i / 3}), springs.push_back({1, 5, i + 1});
+  simulation.apply(edit::CutSprings{springs});
+  if (simulation.tears().particles() == rows * columns) throw std::runtime_error("nothing has parted");
+  const State& state = simulation.read();
+  const auto at = [&](int n) {
+    return glm::dvec3(state.x.x[std::size_t(n)], state.x.y[std::size_t(n)], state.x.z[std::size_t(n)]);
+  };
+  double area = 0;
+  for_each_triangle(simulation.tears(), [&](int a, int b, int c, int, int, int) {
+    area += glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
+  });
+  trial.compare((rows - 1) * (columns - 1) * std::pow(1.2 * preset.L, 2), area);
+  trial.show(simulation);  // nothing has moved
+}
+
 }  // namespace
 
 std::span<const Case> tearing_cases() {
@@ -128,6 +151,9 @@ std::span<const Case> tearing_cases() {
           "held.",
           "$U = \\tfrac12 k_s (0.2 L)^2 (n_{straight} + 2\\,n_{diagonal})$", "Derived in docs/model.md", "J", 1e-12, 0,
           split_energy},
+      Case{"split_area", "Area of a cloth that is cut",
+           "The same sheet has the area of all its triangles, none of which is lost.", "$A = (R - 1)(C - 1)(1.2 L)^2$",
+           "Derived in docs/model.md", "m²", 1e-12, 0, split_area},
   };
   return rows;
 }

@@ -20,7 +20,7 @@ using test::Pair;
 using test::Random;
 
 constexpr std::uint64_t seed = 20;
-constexpr int long_run = 500;  // pairs
+constexpr int long_run = 250;  // pairs, each of which builds a program or two
 
 constexpr std::array features{"bending", "damping", "wind",      "gusts", "pins",   "sphere",   "plane",
                               "tearing", "hand",    "F_release", "cuts",  "a pin",  "a change", "a body that moves",

@@ -18,6 +18,13 @@ static_assert(springs_of_a_particle == int(directions.size()));
 
 constexpr int rows_between_asking = 64;  // whether to stop
 
+/// Where layers rest on each other a stage begins near its solution, and what is left of its residual is not worth the
+/// iterations that take all of it: the part of the weight of a particle that may stay.
+template <class R>
+constexpr double enough_beside() {
+  return 0.1 * balance_tolerance<R>;
+}
+
 }  // namespace
 
 template <class R>
@@ -143,7 +150,10 @@ template <class R>
 Balance ImplicitSolver<R>::solve_by_newton() {
   if (!resize_newton()) return {};
   return tyglab::solve(
-      *this, {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt}, counts_);
+      *this,
+      {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt,
+       beside_ == nullptr ? 0 : enough_beside<R>() * weight_scale(cloth().preset.g, task_.dt) / task_.dt},
+      counts_);
 }
 
 /// Newton's method, again with what has come near on its way.
