@@ -7,6 +7,8 @@ uniform sampler2D normals;        // likewise
 uniform int component;
 uniform float spacing;            // m between particles
 uniform vec2 texture_step;
+uniform int site_rows, columns;       // as in cloth.vert
+uniform highp usampler2D copy_sites;  // likewise
 out vec3 position;
 out vec3 normal;
 out vec2 across;
@@ -29,8 +31,9 @@ vec3 vector_of(sampler2D from, int particle) {
   return found;
 }
 vec2 site_of(int particle) {
-  int i = particle / stride;
-  return vec2(particle - i * stride, i);
+  int i = particle / stride, j = particle - i * stride;
+  if (i < site_rows) return vec2(j, i);
+  return vec2(texelFetch(copy_sites, texel((i - site_rows) * columns + j), 0).rg);
 }
 
 void main() {

@@ -63,7 +63,7 @@ Indices connection_indices(const Lattice& lattice, int stride, const Tears& tear
 /// What closes the edges of a torn cloth, four indices a piece. A quad that has lost triangles shows one of its other
 /// diagonal, if that is whole and its counterpart is not: a, b, c, a, counter-clockwise seen from the front. Beyond
 /// each edge (a, b) of what is shown, threads end where a triangle is missing: c is the corner on this side, d the one
-/// beyond.
+/// beyond. So they do on both sides of the cuts of a cloth that has parted.
 Indices frayed_indices(const Lattice& lattice, int stride, const Tears& tears);
 /// An index for each particle for which `wanted` holds.
 Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted);

@@ -130,8 +130,33 @@ Indices connection_indices(const Lattice& lattice, int stride, const Tears& tear
   return edges.indices(stride, [&](int direction, int i, int j) { return tears.whole(direction, i, j); });
 }
 
+/// Of a cloth that has parted: threads end along both sides of its cuts.
+Indices frayed_cuts(const Lattice& lattice, int stride, const Mesh& mesh) {
+  Indices list;
+  const Lattice& sites = mesh.sites();
+  const auto has_cell = [&](int i, int j) { return sites.contains(i, j) && sites.contains(i + 1, j + 1); };
+  for_each_cell(sites, [&](int i, int j, int which) {
+    const auto& of = corners_of(i, j, which);
+    for (int k = 0; k < 3; ++k) {
+      const Corner a = of[(k + 1) % 3], b = of[k], c = of[(k + 2) % 3];
+      const bool along = a.di == b.di, down = a.dj == b.dj;
+      if (!along && !down) continue;
+      const int ni = i + (along ? 2 * a.di - 1 : 0), nj = j + (down ? 2 * a.dj - 1 : 0);
+      if (!has_cell(ni, nj)) continue;
+      const auto beyond = [&](Corner at) { return mesh.corner(ni, nj, {i + at.di - ni, j + at.dj - nj}); };
+      const int from = mesh.corner(i, j, a), to = mesh.corner(i, j, b);
+      if (from == beyond(a) && to == beyond(b)) continue;
+      const int di = along ? 2 * a.di - c.di : c.di, dj = down ? 2 * a.dj - c.dj : c.dj;
+      for (const int particle : {from, to, mesh.corner(i, j, c), (i + di) * sites.columns + j + dj})
+        list.push_back(vertex(particle, lattice, stride));
+    }
+  });
+  return list;
+}
+
 Indices frayed_indices(const Lattice& lattice, int stride, const Tears& tears) {
-  if (tears.untorn() || tears.mesh() != nullptr) return {};
+  if (tears.mesh() != nullptr) return frayed_cuts(lattice, stride, *tears.mesh());
+  if (tears.untorn()) return {};
   Indices list;
   const auto whole = [&](Corner a, Corner b) {
     const Edge e = edge_between(a, b, 0, 0);

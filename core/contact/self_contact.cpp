@@ -143,9 +143,11 @@ std::span<const SelfContact::Held> SelfContact::hold_back(Vectors x_before, std:
   double longest = 0, farthest = 0;
   for (std::size_t p = 0; p < x.size(); ++p) {
     longest = std::max(longest, length(p));
-    for (int c = 0; c < 3; ++c) farthest = std::max(farthest, std::abs(x_before[p][c]));
+    for (int c = 0; c < 3; ++c)
+      farthest = std::max({farthest, std::abs(x_before[p][c]), std::abs(x_before[p][c] + common_[c])});
   }
   const double least = least_gap(farthest);
+  if (!(least < reach_per_L * L_)) return held_;  // so far away that nothing is told apart: the motion diverges
   // Pairs that are farther apart cut nothing short.
   const double below = std::min(reach_per_L * L_, (longest / (share_of_gap / 2) + least) * (1 + 1e-9));
   if (longest <= share_of_gap / 2 * (nearest_ - least)) return held_;

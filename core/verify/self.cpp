@@ -114,6 +114,7 @@ void stays_apart(Trial& trial, const Preset& preset) {
       most = std::max(most, crossings.pairs - crossings.around_sites);
       if (n == looks) trial.show(simulation);
     }
+    if (scene.tearing == "split" && simulation.tears().mesh() == nullptr) throw std::runtime_error("nothing has torn");
     trial.compare(0, double(most), method);
   }
 }

@@ -1,8 +1,12 @@
 // The five views of 2.4, drawn without a window and counted in pixels.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <set>
 #include <span>
+#include <vector>
 
 #include "app/platform/platform.h"
 #include "app/render/cloth_mesh.h"
@@ -176,6 +180,24 @@ TEST_CASE("a torn edge has threads, and is closed along the other diagonal of a 
   const Indices round = frayed_indices(cloth, stride, hole);
   CHECK(round.size() == 4 * 4);
   for (std::size_t k = 0; k < round.size(); k += 4) CHECK(round[k] != round[k + 3]);
+}
+
+TEST_CASE("threads end along both sides of a cut through a cloth that parts") {
+  constexpr int stride = 10;
+  auto mesh = std::make_shared<Mesh>(Lattice{3, 3});
+  CHECK(mesh->part(1, Mesh::down_right) == 9);
+  CHECK(mesh->part(4, Mesh::up_right | Mesh::down_right) == 10);
+  // The edge from (0, 1) to (1, 1) is open, the next one at its upper end.
+  const Indices found = frayed_indices({5, 3, 2}, stride, Tears({5, 3, 2}, mesh));
+  REQUIRE(found.size() == 4 * 4);
+  std::set<std::vector<std::uint32_t>> ends;
+  for (std::size_t k = 0; k < found.size(); k += 4) {
+    const auto sorted = std::minmax(found[k], found[k + 1]);
+    ends.insert({sorted.first, sorted.second});
+    // On this side and beyond are different columns.
+    CHECK(std::abs(int(found[k + 2] % stride) - int(found[k + 3] % stride)) == 2);
+  }
+  CHECK(ends == std::set<std::vector<std::uint32_t>>{{1, 11}, {30, 31}, {11, 21}, {21, 31}});
 }
 
 TEST_CASE("the back of a cloth has a tint of its own, whatever its texture") {
