@@ -140,10 +140,10 @@ inline bool is_stabilized(const Scheme& scheme) {
 inline bool projects(const Scheme& scheme) {
   return scheme.sweeps.back().projects;
 }
-/// Whether it takes the cloth's contact with itself: its forces are those at known positions, or what it solves is any
-/// force.
-inline bool takes_self_contact(const Scheme& scheme) {
-  return !projects(scheme) && scheme.solver == Solver::newton;
+/// Whether what it solves is of springs alone, so that the forces of the cloth's contact with itself are those at the
+/// start of the step.
+inline bool lags_contact(const Scheme& scheme) {
+  return projects(scheme) || scheme.solver != Solver::newton;
 }
 /// Whether only the damping is implicit: a linear system whose matrix does not depend on the motion.
 inline bool solves_damping(const Scheme& scheme) {
@@ -151,7 +151,7 @@ inline bool solves_damping(const Scheme& scheme) {
 }
 /// Whether it takes a cloth that parts (parted.h): no matrix of the lattice's alone.
 inline bool parts_cloth(const Scheme& scheme) {
-  return takes_self_contact(scheme) && !solves_damping(scheme);
+  return !lags_contact(scheme) && !solves_damping(scheme);
 }
 /// Whether a method's sums, evaluation by evaluation, are all of its step: it is explicit, with a fixed dt.
 inline bool is_written_out(const Scheme& scheme) {

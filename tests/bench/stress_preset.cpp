@@ -104,7 +104,7 @@ Body random_body(const Preset& p, StressRandom& random) {
 
 /// Of thicknesses that the spacing allows, where the method takes it.
 void choose_self_contact(Preset& p, StressRandom& random) {
-  if (!takes_self_contact(scheme(p.integrator)) || random.chance(0.75)) return;
+  if (random.chance(0.75)) return;
   p.self = random.chance(0.5) ? "repel" : "guard";
   p.initial_stretch = std::max(p.initial_stretch, 0.2);
   p.thickness = random.chance(0.5) ? 0 : largest_thickness(p.L) * random.decades(0.01, 1);

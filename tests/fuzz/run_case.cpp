@@ -124,7 +124,7 @@ Preset preset_of(Random& random, bool with_opencl) {
   if (random.below(2) == 0) preset.pins = pins(random, preset);
   if (random.below(3) == 0) add_bodies(random, preset);
   if (random.below(6) == 0) make_tear(random, preset);
-  if (random.below(8) == 0 && takes_self_contact(scheme(preset.integrator))) {
+  if (random.below(8) == 0) {
     preset.self = self_names[1 + std::size_t(random.below(2))];
     preset.initial_stretch = std::max(preset.initial_stretch, 0.2);
     preset.thickness = random.below(2) == 0 ? 0 : random.uniform(0, largest_thickness(preset.L));

@@ -50,7 +50,7 @@ def served(folder, threads=False):
     server.shutdown()
 
 
-MOST_DOWNLOADED = 1_800_000  # bytes up to the first frame
+MOST_DOWNLOADED = 2_000_000  # bytes up to the first frame
 
 
 def downloaded(folder, program="tyglab"):

@@ -90,7 +90,9 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
     t.bend = springs.bend, t.k_d = s.k_d;
   }
   const bool air_alone = s.air == ResolvedSweep::Air::alone;
-  features_ = air_alone ? unsigned(air) : s.external ? cloth_.features & unsigned(wind | air) : cloth_.features;
+  features_ = air_alone    ? cloth_.features & unsigned(air)
+              : s.external ? cloth_.features & unsigned(wind | air)
+                           : cloth_.features;
   if (s.air == ResolvedSweep::Air::none) features_ &= ~unsigned(air);
   if (air_alone)
     t.weft = t.warp = t.shear = t.bend = t.k_d = 0;

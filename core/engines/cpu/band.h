@@ -52,7 +52,8 @@ struct ResolvedSweep {
   double per_velocity = 1;  ///< what that vector is multiplied by to be a velocity: 1, or 1/dt
   std::vector<ResolvedAssignment> assignments;
   bool external = false, projects = false;  ///< as in Sweep; F_curl is among what is external
-  enum class Air { blows, none, alone };    ///< whether F has that of the air, or nothing else
+  /// Whether F has that of the air, or nothing else; with it go the forces of layers in methods that lag them.
+  enum class Air { blows, none, alone };
   Air air = Air::blows;
   double solve_dt = 0;                     ///< not 0: an implicit stage over that time is solved first
   double damps_dt = 0;                     ///< not 0: the damping is solved for over that time

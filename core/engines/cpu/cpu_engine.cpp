@@ -527,9 +527,9 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
-  std::size_t total = acceleration_.bytes() + air_.bytes() + solver_.bytes() + projector_.bytes() + constant_.bytes() +
-                      descent_.bytes() + cloth_.springs.bytes() + cloth_.fixed.size() + guards_.size() +
-                      (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
+  std::size_t total = acceleration_.bytes() + lagged_.bytes() + solver_.bytes() + projector_.bytes() +
+                      constant_.bytes() + descent_.bytes() + cloth_.springs.bytes() + cloth_.fixed.size() +
+                      guards_.size() + (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})

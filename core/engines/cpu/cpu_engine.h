@@ -161,7 +161,11 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void accelerations_of(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);
   /// The implicit stage of a sweep. Returns false, to all threads, where it was stopped.
   bool solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears);
-  void begin_air(const ResolvedSweep& sweep, const Tears& tears);
+  /// Whether an implicit stage has forces of its beginning.
+  bool has_lagged() const {
+    return (cloth_.features & air) != 0 || (self_ != nullptr && lags_contact(*scheme_) && self_->contact.near());
+  }
+  void begin_lagged(const ResolvedSweep& sweep, const Tears& tears);
   void stage_accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out, bool of_step);
   /// The same on this thread alone.
   bool solve(const ResolvedSweep& sweep, const Tears& tears);
@@ -271,7 +275,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   Spectrum spectrum_;
   std::vector<Field> backup_;
   Field acceleration_;                ///< used only between steps (readouts, starts)
-  Field air_;                         ///< accelerations by the air in an implicit stage
+  Field lagged_;                      ///< accelerations by forces of the beginning of an implicit stage
   std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
   std::vector<int> pinned_;
   std::vector<int> all_fixed_;  ///< the same and the held one, in rising order

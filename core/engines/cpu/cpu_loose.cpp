@@ -116,7 +116,7 @@ void CpuEngine<R, Present>::find_loose_force(const ResolvedSweep& sweep) {
 /// What the next implicit stage has beside the lattice; null: nothing.
 template <class R, unsigned Present>
 const implicit::Beside* CpuEngine<R, Present>::begin_beside() {
-  const bool meets = self_ != nullptr && self_->contact.near();
+  const bool meets = self_ != nullptr && !lags_contact(*scheme_) && self_->contact.near();
   if (!meets && loose_.particles.empty()) return nullptr;
   beside_.lighter.clear();
   for (std::size_t n = 0; n < loose_.particles.size(); ++n)

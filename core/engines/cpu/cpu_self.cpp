@@ -39,7 +39,9 @@ void CpuEngine<R, Present>::begin_self(const Tears& tears) {
 /// Before a sweep: the forces of layers, which it adds to those it computes, and what loose ones add.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
-  if (sweep.external || sweep.air == ResolvedSweep::Air::alone) return;
+  using Air = ResolvedSweep::Air;
+  const bool has_them = lags_contact(*scheme_) ? sweep.air != Air::none : !sweep.external && sweep.air != Air::alone;
+  if (!has_them) return;
   if (!self_->solving && !self_->contact.near()) return;
   std::vector<glm::dvec3>& F = self_->F;
   // The first sweep of a step is at the positions that its beginning has looked at.

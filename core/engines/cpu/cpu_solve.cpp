@@ -26,21 +26,22 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
   return descend(number, sweep, tears);
 }
 
-/// The air of an implicit stage, as accelerations: at the positions and velocities with which the stage begins. Nothing
-/// without air. The held particle, which it does not accelerate, feels it too: hand_force_.
+/// The air of an implicit stage, and layers in a method that lags them, as accelerations: at the positions and
+/// velocities with which the stage begins. The held particle, which they do not accelerate, feels them too:
+/// hand_force_.
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::begin_air(const ResolvedSweep& sweep, const Tears& tears) {
+void CpuEngine<R, Present>::begin_lagged(const ResolvedSweep& sweep, const Tears& tears) {
   hand_force_ = {};
-  if ((cloth_.features & air) == 0) return;
+  if (!has_lagged()) return;
   ResolvedSweep look;
   look.position = sweep.position, look.velocity = sweep.velocity, look.air = ResolvedSweep::Air::alone;
-  accelerations_of(look, tears, air_, true);
+  accelerations_of(look, tears, lagged_, true);
   if (!has(part::hand) || cloth_.held.particle < 0) return;
   for (const auto& band : bands())
     if (band->has_hand()) hand_force_ = band->hand_force();
 }
 
-/// Of a stage whose air has begun: a(x, v) with that.
+/// Of a stage whose beginning has been looked at: a(x, v) with what is lagged.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::stage_accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out,
                                                 bool of_step) {
@@ -48,16 +49,16 @@ void CpuEngine<R, Present>::stage_accelerations(const ResolvedSweep& sweep, cons
   look.position = sweep.position, look.velocity = sweep.velocity, look.external = sweep.external;
   look.k_d = cloth_.preset.k_d, look.air = ResolvedSweep::Air::none;
   accelerations_of(look, tears, out, of_step);
-  if ((cloth_.features & air) == 0) return;
+  if (!has_lagged()) return;
   for (int i = 0; i < cloth_.lattice.rows; ++i)
-    for (std::ptrdiff_t n = 0; n < air_.pitch(); ++n) out.row(i)[n] += air_.row(i)[n];
+    for (std::ptrdiff_t n = 0; n < lagged_.pitch(); ++n) out.row(i)[n] += lagged_.row(i)[n];
 }
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   assert(&sweep >= sweeps_.data() && &sweep < sweeps_.data() + sweeps_.size());
   for (const auto& band : bands()) band->assign(sweep.before, false);
-  begin_air(sweep, tears);
+  begin_lagged(sweep, tears);
   const implicit::Beside* beside = begin_beside();
   const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
   const bool solved = solver_.solve(
@@ -67,7 +68,7 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
        {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return out_of_time((stage + part) / stages); }},
        [&](double part) { set_step_progress((stage + part) / stages); },
        *crew_},
-      {scheme_->solver, springs_changed(tears), (cloth_.features & air) == 0 ? nullptr : &air_, beside});
+      {scheme_->solver, springs_changed(tears), has_lagged() ? &lagged_ : nullptr, beside});
   if (self_ != nullptr) self_->solving = false;
   if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
   return solved;
@@ -87,7 +88,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   Field &x = cloth_.vector(sweep.position), &v = cloth_.vector(sweep.velocity);
   if (number == 0) {
     solver_.begin_stage(cloth_, sweep.position, sweep.velocity);
-    begin_air(sweep, tears);
+    begin_lagged(sweep, tears);
     descent_.prepare(cloth_, tears, sweep.solve_dt, springs_changed(tears));
     accept_springs(tears);
   }
@@ -119,7 +120,7 @@ template <class R, unsigned Present>
 bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears) {
   assert(pass >= 0 && pass < most_passes());
   const int begin = band_begin(number), end = band_begin(number + 1);
-  const bool others = (cloth_.features & (wind | air)) != 0 || force::curl.on(cloth_.preset);
+  const bool others = (cloth_.features & wind) != 0 || has_lagged() || force::curl.on(cloth_.preset);
   if (others) {
     descent_.write_positions(cloth_.vector(sweep.position), begin, end);
     team_->barrier();
