@@ -210,8 +210,13 @@ std::string label_of(std::string_view name) {
 
 std::string shown_word(std::string_view name, std::string_view word) {
   if (name == "integrator") return std::string(scheme(word).title);
-  if (const auto k = std::find(contact_names.begin(), contact_names.end(), word); k != contact_names.end())
-    return contact_titles[std::size_t(k - contact_names.begin())];
+  const auto title = [word](const auto& names, const auto& titles) -> std::string {
+    const auto k = std::find(names.begin(), names.end(), word);
+    return std::string(k != names.end() ? titles[std::size_t(k - names.begin())] : word);
+  };
+  if (name == "contact") return title(contact_names, contact_titles);
+  if (name == "self") return title(self_names, self_titles);
+  if (name == "tearing.mode") return title(tearing_names, tearing_titles);
   if (word == engine_names[0]) return "CPU";
   return word == engine_names[1] ? "OpenCL" : std::string(word);
 }

@@ -10,6 +10,7 @@
 #include "app/session/lab_check.h"
 #include "app/session/motion.h"
 #include "app/session/session.h"
+#include "core/analysis/area.h"
 #include "core/cloth/lattice.h"
 #include "core/integrators/scheme.h"
 #include "core/model/effect.h"
@@ -149,6 +150,10 @@ Known ledger_share(Session& session) {
   const auto ledger = session.simulation->ledger();
   return ledger ? Known(ledger->share()) : std::nullopt;
 }
+Known counted_crossings(Session& session) {
+  const FoundCrossings* found = session.studies.crossings.of(session.study_moment().mark());
+  return found != nullptr && found->complete ? Known(double(found->pairs)) : std::nullopt;
+}
 Known time_of_divergence(Session& session) {
   const auto& divergence = session.simulation->divergence();
   return divergence ? Known(divergence->t) : std::nullopt;
@@ -215,6 +220,18 @@ const std::array rows_but_forces{
                .word = [](const Session& session) -> std::string_view { return session.preset().contact; },
                .words = []() -> std::span<const std::string_view> { return contact_names; },
                .label = "Contact"},
+    Observable{.name = "self",
+               .meaning = "Contact of the cloth with itself.",
+               .place = "Self-contact",
+               .word = [](const Session& session) -> std::string_view { return session.preset().self; },
+               .words = []() -> std::span<const std::string_view> { return self_names; },
+               .label = "Layers"},
+    Observable{.name = "tearing.mode",
+               .meaning = "What an overload does.",
+               .place = "Tearing",
+               .word = [](const Session& session) -> std::string_view { return session.preset().tearing; },
+               .words = []() -> std::span<const std::string_view> { return tearing_names; },
+               .label = "Overload"},
     Observable{.name = "untouched",
                .meaning = "Whether the constants are those with which the step began, apart from those that its checks "
                           "name, and nobody has pulled or cut the cloth since the motion began.",
@@ -358,6 +375,26 @@ const std::array rows_but_forces{
                .place = "bottom bar",
                .number = [](Session& session) -> Known { return double(session.simulation->tears().torn_count()); }},
     Observable{.name = "pinned", .meaning = "Pinned particles.", .number = pinned_particles},
+    Observable{.name = "particles",
+               .meaning = "Particles, with those that were added where the cloth parted.",
+               .number = [](Session& session) -> Known { return double(session.simulation->tears().particles()); }},
+    Observable{.name = "area",
+               .unit = "m²",
+               .meaning = "Area of the whole triangles.",
+               .number = [](Session& session) -> Known { return cloth_area(*session.simulation); },
+               .label = "Area of the cloth"},
+    Observable{.name = "crossings",
+               .meaning = "Pairs of triangles that cross or touch each other.",
+               .hint = "Pause: they are then counted in a moment.",
+               .place = "Performance card",
+               .number = counted_crossings,
+               .needs = &Wants::crossings,
+               .measured = true},
+    Observable{.name = "held_back",
+               .meaning = "Moves of particles that the guard has cut short since the start.",
+               .place = "Performance card",
+               .number = [](Session& session) -> Known { return double(session.simulation->engine().held_back()); },
+               .label = "Moves cut short by the guard"},
 };
 
 /// A number of the notation table: "k_s", "W.x".

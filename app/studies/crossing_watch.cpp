@@ -36,7 +36,7 @@ void CrossingWatch::poll(StudyMoment& moment) {
   if (work_.working()) return moment.ask_again_in(soon);
   if (work_.ready())
     if (auto outcome = work_.take(); looked_at_ && std::holds_alternative<FoundCrossings>(outcome))
-      found_ = std::move(std::get<FoundCrossings>(outcome));
+      found_ = std::move(std::get<FoundCrossings>(outcome)), found_at_ = looked_at_;
   if (moment.simulation.lattice() != lattice_) found_.reset();
   if (looked_at_ == moment.mark() || !moment.readable) return;
   const double due = begun_ + between_looks;
@@ -52,7 +52,7 @@ void CrossingWatch::poll(StudyMoment& moment) {
 void CrossingWatch::begin(const Simulation& simulation) {
   lattice_ = simulation.lattice();
   if (simulation.divergence()) {
-    found_ = FoundCrossings();
+    found_ = FoundCrossings(), found_at_.reset();
     return;
   }
   work_.start(Priority::below_frames,
@@ -64,7 +64,7 @@ void CrossingWatch::begin(const Simulation& simulation) {
 void CrossingWatch::drop() {
   work_.cancel();
   if (work_.ready()) work_.stop();
-  found_.reset(), looked_at_.reset();
+  found_.reset(), looked_at_.reset(), found_at_.reset();
 }
 
 }  // namespace tyglab

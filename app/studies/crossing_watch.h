@@ -33,6 +33,10 @@ class CrossingWatch {
   void drop();
   /// The newest count; none before the first is ready.
   const std::optional<FoundCrossings>& found() const { return found_; }
+  /// The count of that moment; null while it is not ready.
+  const FoundCrossings* of(const MotionMark& moment) const {
+    return found_ && found_at_ == moment ? &*found_ : nullptr;
+  }
   /// Of the cloth that was looked at.
   const Lattice& lattice() const { return lattice_; }
 
@@ -44,6 +48,7 @@ class CrossingWatch {
   Lattice lattice_;
   double begun_ = 0;                     ///< s on the session's clock; when the last look began
   std::optional<MotionMark> looked_at_;  ///< the moment of it
+  std::optional<MotionMark> found_at_;   ///< the moment of the newest count
 };
 
 }  // namespace tyglab

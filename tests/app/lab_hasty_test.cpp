@@ -18,9 +18,11 @@ std::vector<std::string> asked_constants(const LabStep& step) {
   std::vector<std::string> settings;
   for (const Condition& check : step.checks) {
     if (check.span == Span::narrowed) continue;  // no value is asked for
-    if (check.name == "integrator" || check.name == "engine" || check.name == "precision" || check.name == "contact") {
-      settings.push_back(check.name + "=" + check.right.word);
-    } else if (find_row(check.name) != nullptr && check.right.name.empty()) {
+    const bool constant = find_row(check.name) != nullptr;
+    if (is_word(check.name)) {
+      if (constant || check.name == "engine" || check.name == "precision")
+        settings.push_back(check.name + "=" + check.right.word);
+    } else if (constant && check.right.name.empty()) {
       const bool below = check.relation == Relation::less, above = check.relation == Relation::greater;
       settings.push_back(check.name + "=" + std::to_string(check.right.factor * (below ? 0.99 : above ? 1.01 : 1)));
     }
@@ -48,7 +50,8 @@ void play_lazily(LabPlayer& play) {
     return;
   }
   const Preset before = play.session().preset();
-  for (const std::string& setting : asked_constants(step)) play.set(setting);
+  for (const std::string& setting : asked_constants(step))  // one of them may be refused, which changes nothing
+    apply_edit(play.session(), edit::Change{with_settings(play.session().preset(), {setting})});
   if (play.session().preset() == before) return;
   for (int n = 0; n < 3; ++n) play.update();
   CHECK_FALSE(play.done());  // by constants that are typed after the motion

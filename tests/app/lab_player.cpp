@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/session/motion.h"
+#include "app/session/observables.h"
 #include "app/session/session.h"
 #include "app/studies/job.h"
 #include "core/io/preset_io.h"
@@ -133,6 +134,16 @@ void LabPlayer::look() {
     REQUIRE(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() < patience);
   }
   session_.pacing.playing = playing;
+}
+
+void LabPlayer::count() {
+  const auto begun = std::chrono::steady_clock::now();
+  while (!done() && !observe(session_, "crossings")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    update(0.01);
+    REQUIRE(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() < patience);
+  }
+  update();
 }
 
 void LabPlayer::next() {

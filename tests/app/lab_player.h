@@ -26,6 +26,8 @@ class LabPlayer {
   /// Updates in which nothing is done, until the limits are there and, where the step shows the Accuracy card, what it
   /// measures; or until the step is done.
   void look();
+  /// The same, until the crossings of the cloth have been counted.
+  void count();
   /// The next step, which opens its preset.
   void next();
   /// The same though this one is not done.

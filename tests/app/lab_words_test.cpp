@@ -39,6 +39,12 @@ TEST_CASE("what is yes or no is asked in a sentence") {
   CHECK(words_of(check("check: picked = yes")) == "A particle is picked");
 }
 
+TEST_CASE("a choice among the constants is called as in the window") {
+  CHECK(words_of(check("check: contact = step throughout")) == "Contact: at end of step throughout");
+  CHECK(words_of(check("check: self = off")) == "Layers: cross");
+  CHECK(words_of(check("check: tearing.mode != split")) == "Overload: not cloth parts");
+}
+
 TEST_CASE("what is to be found out is not told by the check") {
   CHECK(check("find: k_s > 185").to_find);
   CHECK_FALSE(check("check: k_s > 185").to_find);

@@ -15,6 +15,7 @@
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
 #include "app/process/program_run.h"
+#include "core/analysis/area.h"
 #include "core/analysis/pierced.h"
 #include "core/analysis/self_crossings.h"
 #include "core/analysis/settings_search.h"
@@ -277,17 +278,6 @@ Json inner_steps_json(const Simulation& simulation) {
           {"too_short", inner.too_short},
           {"below_digits", inner.below_digits},
           {"force_evaluations", inner.force_evaluations}};
-}
-
-/// Of all whole triangles, m².
-double cloth_area(Simulation& simulation) {
-  const VectorField<double>& x = simulation.read().x;
-  const auto at = [&](int n) { return glm::dvec3(x.x[std::size_t(n)], x.y[std::size_t(n)], x.z[std::size_t(n)]); };
-  double area = 0;
-  for_each_triangle(simulation.tears(), [&](int a, int b, int c, int, int, int) {
-    area += glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
-  });
-  return area;
 }
 
 /// What the end of a run is looked at for: what its last state tells of it.

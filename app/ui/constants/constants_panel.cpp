@@ -330,6 +330,8 @@ void show_constant(Ui& ui, std::string_view key) {
 void bring_into_sight(Ui& ui, std::string_view key) {
   ui.slider.shown_key = key;
   if (key == "contact") ui.settings.layout.folded.erase("Bodies");
+  if (key == "self") ui.settings.layout.folded.erase("Self-contact");
+  if (key == "tearing.mode") ui.settings.layout.folded.erase("Tearing");
   for (const Heading& wanted : headings()) {
     const auto list = rows_of(wanted);
     if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;

@@ -73,11 +73,11 @@ std::vector<const PresetRow*> checked_constants(const Ui& ui) {
 }
 
 /// What a step of a lab tells to change is to be in sight, in a low column too: the first constant that it checks, or
-/// the time of contact, which is no number.
+/// one of the choices among the constants.
 void Ui::show_what_to_change() {
   for (const Condition& check : session.labs.run->now().checks) {
     const PresetRow* row = checked_constant(*this, check);
-    if (row != nullptr || check.name == "contact")
+    if (row != nullptr || check.name == "contact" || check.name == "self" || check.name == "tearing.mode")
       return bring_into_sight(*this, row != nullptr ? row->key : check.name);
   }
 }
