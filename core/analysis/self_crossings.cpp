@@ -31,7 +31,7 @@ std::string crossings_in_words(const Crossings& crossings) {
           ? ""
           : (crossings.around_sites == crossings.pairs ? std::string(", ")
                                                        : ", " + grouped(crossings.around_sites) + " of them ") +
-                "around a site that has parted, where no guard acts";
+                "around a site that has parted";
   return std::string("The cloth passes through itself: ") + (crossings.complete ? "" : "at least ") + pairs + around +
          ".";
 }

@@ -52,8 +52,8 @@ void SelfContact::look(Vectors x, bool begins_step) {
 }
 
 void SelfContact::begin_solve(Vectors x) {
-  sides_.clear();
-  renew_solve(x);
+  touches_.clear(), sides_.clear();
+  if (pairs_.near()) renew_solve(x);
 }
 
 void SelfContact::renew_solve(Vectors x) {
@@ -61,7 +61,7 @@ void SelfContact::renew_solve(Vectors x) {
   pairs_.measure(reach_per_L * L_, x, [&](const std::array<int, 4>& at, const Gap& gap, double distance) {
     if (distance > 0) sides_.push_back({at, gap.edges, gap.between / distance});
   });
-  // Each once, as it was first.
+  // Each pair stays once, with its first side.
   const auto name = [](const Side& side) { return std::tie(side.at, side.edges); };
   const auto before = [&](const Side& a, const Side& b) { return name(a) < name(b); };
   std::sort(sides_.begin() + known, sides_.end(), before);
@@ -78,7 +78,9 @@ void SelfContact::look_in_solve(Vectors x) {
                                : gap_to_triangle(place(0), {place(1), place(2), place(3)});
     if (glm::dot(gap.between, side.normal) > 0) side.normal = glm::normalize(gap.between);
     const double distance = glm::dot(gap.between, side.normal);
-    if (distance < d_) touches_.push_back({side.at, gap.weights, side.normal, d_ - distance});
+    // What is beside the other part has gone around it.
+    const bool beside = distance < 0 && glm::length(gap.between - distance * side.normal) > reach_per_L * L_;
+    if (distance < d_ && !beside) touches_.push_back({side.at, gap.weights, side.normal, d_ - distance});
   }
 }
 

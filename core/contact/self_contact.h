@@ -8,7 +8,8 @@
 // the reach. Since a point of a part moves no further than one of its corners, two parts at a distance D then approach
 // by less than D, and what did not cross at the start of a step does not cross at its end (the idea of Offset Geometric
 // Contact: A. H. Chen, J. Hsu, Z. Liu, M. Macklin, Y. Yang, C. Yuksel, 2025). Where it cuts nothing short it changes
-// nothing. Distances of d and more matter only where something moves that fast, and are measured only then.
+// nothing. Distances of d and more matter only where something moves that fast, and are measured only then. There is no
+// guard so far away that δ exceeds the reach, where positions no longer tell layers apart.
 #pragma once
 
 #include <array>
@@ -59,9 +60,11 @@ class SelfContact {
   void look(Vectors x, bool begins_step = false);
   // An implicit solve tries positions beyond other layers, where the force as such would push further on. So pairs
   // within the reach keep the sides that they have where the solve begins: a pair that has passed through pushes back
-  // by as much. Where nothing has passed through, that is the same force.
+  // by as much. Other pairs have the same force as elsewhere.
   /// A solve begins, in a step that begins at positions x, which are followed.
   void begin_solve(Vectors x);
+  /// Whether it has any pairs.
+  bool solves_for_pairs() const { return !sides_.empty(); }
   /// As look(), at positions within the solve.
   void look_in_solve(Vectors x);
   /// Adds pairs that have come within the reach, at positions x, which are followed.

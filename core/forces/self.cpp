@@ -11,8 +11,9 @@ namespace {
 SelfContact looked_at(const Preset& p, const Tears& tears, std::span<const glm::dvec3> x) {
   SelfContact contact(tears.lattice());
   contact.set_preset(p, layer_constant(p));
-  contact.follow(tears, x);
-  contact.look(x);
+  const auto placed = x.first(std::size_t(tears.particles()));
+  contact.follow(tears, placed);
+  contact.look(placed);
   return contact;
 }
 

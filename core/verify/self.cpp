@@ -205,9 +205,8 @@ std::span<const Case> self_cases() {
            "A free sheet is thrown together: its layers push each other off, and gravity alone changes its momentum.",
            "$\\Delta p = -M g t$", "Newton's third law", "N s", 1e-9, 0, crumpling_momentum},
       Case{"heap_energy", "Energy of a sheet that becomes a heap",
-           "A sheet falls on its edge, without restitution: its energy never rises again after it has fallen. The "
-           "energy "
-           "at the start is compared with M g h, and with what it rises by in the following 2 s added.",
+           "A sheet falls on its edge, without restitution, and its energy never rises. The energy at the start is "
+           "compared with M g h, and with what it rises by in 2 s added.",
            "$E = M g h$, and no rise", "Derived in docs/model.md", "J", 1e-4, 0, heap_energy},
   };
   return rows;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/analysis/area.h"
 #include "core/cloth/mesh.h"
 #include "core/verify/gallery.h"
 #include "core/verify/trial.h"
@@ -121,15 +122,7 @@ void split_area(Trial& trial) {
   for (int i = 1; i < 9; ++i) springs.push_back({0, i, 3 + i / 3}), springs.push_back({1, 5, i + 1});
   simulation.apply(edit::CutSprings{springs});
   if (simulation.tears().particles() == rows * columns) throw std::runtime_error("nothing has parted");
-  const State& state = simulation.read();
-  const auto at = [&](int n) {
-    return glm::dvec3(state.x.x[std::size_t(n)], state.x.y[std::size_t(n)], state.x.z[std::size_t(n)]);
-  };
-  double area = 0;
-  for_each_triangle(simulation.tears(), [&](int a, int b, int c, int, int, int) {
-    area += glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
-  });
-  trial.compare((rows - 1) * (columns - 1) * std::pow(1.2 * preset.L, 2), area);
+  trial.compare((rows - 1) * (columns - 1) * std::pow(1.2 * preset.L, 2), cloth_area(simulation));
   trial.show(simulation);  // nothing has moved
 }
 

@@ -50,7 +50,7 @@ TEST_CASE("every card of the start page shows its title and its goal whole" * do
       CHECK_FALSE(window.drew("…"));
       window.wheel(-1.5f);
     }
-    CHECK(window.sees("dialog.entry.When_does_it_hit"));
+    CHECK(window.sees("dialog.entry.How_it_tears"));
   });
 }
 

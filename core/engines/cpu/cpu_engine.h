@@ -161,10 +161,6 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void accelerations_of(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);
   /// The implicit stage of a sweep. Returns false, to all threads, where it was stopped.
   bool solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears);
-  /// Whether an implicit stage has forces of its beginning.
-  bool has_lagged() const {
-    return (cloth_.features & air) != 0 || (self_ != nullptr && lags_contact(*scheme_) && self_->contact.near());
-  }
   void begin_lagged(const ResolvedSweep& sweep, const Tears& tears);
   void stage_accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out, bool of_step);
   /// The same on this thread alone.
@@ -240,7 +236,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void begin_self(const Tears& tears);
   void find_near_force(const ResolvedSweep& sweep);
   bool end_self();
-  void begin_self_solve();
+  bool begin_self_solve();
   void add_self_couplings(double h, std::vector<implicit::Coupling>& out) const;
   void fetch(const Field& field, double scale, std::vector<glm::dvec3>& out) const;
   /// Something other than steps has moved particles.
@@ -275,7 +271,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   Spectrum spectrum_;
   std::vector<Field> backup_;
   Field acceleration_;                ///< used only between steps (readouts, starts)
-  Field lagged_;                      ///< accelerations by forces of the beginning of an implicit stage
+  Field lagged_;                      ///< accelerations by forces of the beginning of an implicit stage,
+  bool has_lagged_ = false;           ///< where it has any
   std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
   std::vector<int> pinned_;
   std::vector<int> all_fixed_;  ///< the same and the held one, in rising order
@@ -342,7 +339,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   bool late_ = false;       ///< the present stage ends with the passes that are made
   bool repeating_ = false;  ///< known steps, which are not stopped
   const Stop never_{};
-  glm::dvec3 hand_force_{0};  ///< on the held particle: of a method that projects, or the air of one that solves
+  glm::dvec3 hand_force_{0};  ///< on the held particle: of a method that projects, or what one that solves lags
 };
 
 std::unique_ptr<Engine> make_cpu_engine(const Preset& preset, const Lattice& lattice, int threads);

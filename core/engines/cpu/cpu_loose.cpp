@@ -116,7 +116,8 @@ void CpuEngine<R, Present>::find_loose_force(const ResolvedSweep& sweep) {
 /// What the next implicit stage has beside the lattice; null: nothing.
 template <class R, unsigned Present>
 const implicit::Beside* CpuEngine<R, Present>::begin_beside() {
-  const bool meets = self_ != nullptr && !lags_contact(*scheme_) && self_->contact.near();
+  beside_.renew = {};
+  const bool meets = self_ != nullptr && !lags_contact(*scheme_) && begin_self_solve();
   if (!meets && loose_.particles.empty()) return nullptr;
   beside_.lighter.clear();
   for (std::size_t n = 0; n < loose_.particles.size(); ++n)
@@ -125,8 +126,6 @@ const implicit::Beside* CpuEngine<R, Present>::begin_beside() {
     out.clear();
     add_loose_couplings(h, out), add_self_couplings(h, out);
   };
-  beside_.renew = {};
-  if (meets) begin_self_solve();
   return &beside_;
 }
 

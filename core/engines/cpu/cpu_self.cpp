@@ -24,7 +24,7 @@ void CpuEngine<R, Present>::fetch(const Field& field, double scale, std::vector<
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_self(const Tears& tears) {
   if (self_ == nullptr) return;
-  self_->particles = tears.particles();
+  self_->particles = tears.particles(), self_->solving = false;
   const bool guards = guards_itself(cloth_.preset);
   if (self_->contact.near() || self_->contact.stale(tears, self_->way)) {
     fetch(cloth_.vector(vector_x), 1, self_->x);
@@ -42,7 +42,7 @@ void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
   using Air = ResolvedSweep::Air;
   const bool has_them = lags_contact(*scheme_) ? sweep.air != Air::none : !sweep.external && sweep.air != Air::alone;
   if (!has_them) return;
-  if (!self_->solving && !self_->contact.near()) return;
+  if (self_->solving ? !self_->contact.solves_for_pairs() : !self_->contact.near()) return;
   std::vector<glm::dvec3>& F = self_->F;
   // The first sweep of a step is at the positions that its beginning has looked at.
   if (self_->solving) {
@@ -75,24 +75,28 @@ void CpuEngine<R, Present>::find_near_force(const ResolvedSweep& sweep) {
   cloth_.near_force = &self_->force, cloth_.near_rows = nullptr;
 }
 
-/// Before an implicit stage: until it ends, pairs keep their sides.
+/// Before an implicit stage: until it ends, pairs keep their sides. Returns whether there are any, by their distances
+/// where the step begins.
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::begin_self_solve() {
-  fetch(cloth_.vector(vector_x), 1, self_->x);
-  if (!self_->looked) self_->contact.follow(self_->x);
+bool CpuEngine<R, Present>::begin_self_solve() {
+  const bool elsewhere = self_->way == std::numeric_limits<double>::infinity();  // the last stage has looked there
+  if (self_->contact.near() || elsewhere) fetch(cloth_.vector(vector_x), 1, self_->x);
+  if (!self_->looked && (self_->contact.near() || elsewhere)) self_->contact.follow(self_->x), self_->way = 0;
   self_->contact.begin_solve(self_->x);
   self_->solving = true;
+  if (!self_->contact.solves_for_pairs()) return false;
   self_->looked = false, self_->way = std::numeric_limits<double>::infinity();
   beside_.renew = [this] {
     self_->contact.follow(self_->x);
     self_->contact.renew_solve(self_->x);
   };
+  return true;
 }
 
 /// How layers in contact resist, where forces were computed last.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::add_self_couplings(double h, std::vector<implicit::Coupling>& out) const {
-  if (self_ == nullptr || !self_->contact.touches()) return;
+  if (self_ == nullptr || !self_->solving || !self_->contact.touches()) return;
   const std::ptrdiff_t pitch = cloth_.vector(vector_x).pitch();
   const int columns = cloth_.lattice.columns;
   for (const auto& [at, weights, normal, along, across] : self_->contact.resistances(self_->v)) {
@@ -141,7 +145,7 @@ bool CpuEngine<R, Present>::end_self() {
 #define TYGLAB_MAKE(R, present)                                                                              \
   template void CpuEngine<R, (present)>::begin_self(const Tears&);                                           \
   template void CpuEngine<R, (present)>::find_near_force(const ResolvedSweep&);                              \
-  template void CpuEngine<R, (present)>::begin_self_solve();                                                 \
+  template bool CpuEngine<R, (present)>::begin_self_solve();                                                 \
   template void CpuEngine<R, (present)>::add_self_couplings(double, std::vector<implicit::Coupling>&) const; \
   template bool CpuEngine<R, (present)>::end_self();
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)

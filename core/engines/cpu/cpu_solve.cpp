@@ -32,13 +32,16 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_lagged(const ResolvedSweep& sweep, const Tears& tears) {
   hand_force_ = {};
-  if (!has_lagged()) return;
+  const bool blows = (cloth_.features & air) != 0, lags_layers = self_ != nullptr && lags_contact(*scheme_);
+  has_lagged_ = blows || (lags_layers && self_->contact.near());
+  if (!has_lagged_) return;
   ResolvedSweep look;
   look.position = sweep.position, look.velocity = sweep.velocity, look.air = ResolvedSweep::Air::alone;
   accelerations_of(look, tears, lagged_, true);
+  has_lagged_ = blows || self_->contact.touches();
   if (!has(part::hand) || cloth_.held.particle < 0) return;
   for (const auto& band : bands())
-    if (band->has_hand()) hand_force_ = band->hand_force();
+    if (band->has_hand()) hand_force_ = share_held() * band->hand_force();
 }
 
 /// Of a stage whose beginning has been looked at: a(x, v) with what is lagged.
@@ -49,7 +52,7 @@ void CpuEngine<R, Present>::stage_accelerations(const ResolvedSweep& sweep, cons
   look.position = sweep.position, look.velocity = sweep.velocity, look.external = sweep.external;
   look.k_d = cloth_.preset.k_d, look.air = ResolvedSweep::Air::none;
   accelerations_of(look, tears, out, of_step);
-  if (!has_lagged()) return;
+  if (!has_lagged_) return;
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (std::ptrdiff_t n = 0; n < lagged_.pitch(); ++n) out.row(i)[n] += lagged_.row(i)[n];
 }
@@ -68,7 +71,7 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
        {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return out_of_time((stage + part) / stages); }},
        [&](double part) { set_step_progress((stage + part) / stages); },
        *crew_},
-      {scheme_->solver, springs_changed(tears), has_lagged() ? &lagged_ : nullptr, beside});
+      {scheme_->solver, springs_changed(tears), has_lagged_ ? &lagged_ : nullptr, beside});
   if (self_ != nullptr) self_->solving = false;
   if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
   return solved;
@@ -120,7 +123,7 @@ template <class R, unsigned Present>
 bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears) {
   assert(pass >= 0 && pass < most_passes());
   const int begin = band_begin(number), end = band_begin(number + 1);
-  const bool others = (cloth_.features & wind) != 0 || has_lagged() || force::curl.on(cloth_.preset);
+  const bool others = (cloth_.features & wind) != 0 || force::curl.on(cloth_.preset) || (pass == 0 && has_lagged_);
   if (others) {
     descent_.write_positions(cloth_.vector(sweep.position), begin, end);
     team_->barrier();

@@ -191,6 +191,7 @@ void CpuEngine<R, Present>::read_hand(const Tears& tears) {
     }
   const ParticleForces forces = forces_on_particle(cloth_.preset, tears, near, i, j);
   hand_force_ = forces.F_int() + forces.F_ext();
+  if (cloth_.near_force != nullptr) hand_force_ += self_->F[std::size_t(cloth_.held.particle)];
 }
 
 template <class R, unsigned Present>

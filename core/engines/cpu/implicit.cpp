@@ -149,14 +149,15 @@ void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accel
 template <class R>
 Balance ImplicitSolver<R>::solve_by_newton() {
   if (!resize_newton()) return {};
-  return tyglab::solve(
-      *this,
-      {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt,
-       beside_ == nullptr ? 0 : enough_beside<R>() * weight_scale(cloth().preset.g, task_.dt) / task_.dt},
-      counts_);
+  return tyglab::solve(*this,
+                       {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt,
+                        beside_ == nullptr || !beside_->renew
+                            ? 0
+                            : enough_beside<R>() * weight_scale(cloth().preset.g, task_.dt) / task_.dt},
+                       counts_);
 }
 
-/// Newton's method, again with what has come near on its way.
+/// Newton's method, and again with what has come near on its way until forces balance.
 template <class R>
 Balance ImplicitSolver<R>::solve_beside() {
   constexpr int most_passes = 5;
@@ -164,7 +165,7 @@ Balance ImplicitSolver<R>::solve_beside() {
   for (int n = 1; n < most_passes && beside_->renew && cloth().preset.iterations > 1; ++n) {
     if (stops() || out_of_time()) break;
     beside_->renew();
-    evaluate(), found = balance();
+    evaluate(), found = balance(), ++counts_.force_evaluations;
     if (found.found()) break;
     found = solve_by_newton();
   }

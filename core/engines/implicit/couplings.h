@@ -32,7 +32,7 @@ struct Beside {
   std::vector<Lighter> lighter;
   /// Writes the couplings at the positions and velocities at which forces were computed last, over a time h (s).
   std::function<void(double h, std::vector<Coupling>&)> couplings;
-  /// Takes what has come near by now into account, where forces were computed last; empty: nothing comes near.
+  /// Takes what has come near by now into account, where forces were computed last; empty: nothing can.
   std::function<void()> renew;
 };
 
