@@ -245,7 +245,7 @@ TEST_CASE("cards are gone through by keys; a preset with errors says what is wro
   window.frames(2);
   CHECK(window.drew("No matches."));
   window.key(GLFW_KEY_A, ctrl);
-  window.type("strip");
+  window.type("bending springs");
   window.frames(2);
   window.key(GLFW_KEY_DOWN);
   window.key(GLFW_KEY_DOWN);  // beyond the last
