@@ -26,14 +26,13 @@ std::string crossings_in_words(const Crossings& crossings) {
   if (crossings.pairs == 0) return "";
   const std::string pairs =
       grouped(crossings.pairs) + (crossings.pairs == 1 ? " pair of triangles crosses" : " pairs of triangles cross");
-  const std::string around =
-      crossings.around_sites == 0
-          ? ""
-          : (crossings.around_sites == crossings.pairs ? std::string(", ")
-                                                       : ", " + grouped(crossings.around_sites) + " of them ") +
-                "around a site that has parted";
-  return std::string("The cloth passes through itself: ") + (crossings.complete ? "" : "at least ") + pairs + around +
-         ".";
+  std::string sentence =
+      std::string("The cloth passes through itself: ") + (crossings.complete ? "" : "at least ") + pairs;
+  if (crossings.around_sites > 0) sentence += ", ";
+  if (crossings.around_sites > 0 && crossings.around_sites < crossings.pairs)
+    sentence += grouped(crossings.around_sites) + " of them ";
+  if (crossings.around_sites > 0) sentence += "around a site that has parted";
+  return sentence + ".";
 }
 
 }  // namespace tyglab

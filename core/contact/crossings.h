@@ -15,8 +15,8 @@ namespace tyglab {
 
 struct Crossings {
   std::int64_t pairs = 0;
-  std::int64_t around_sites =
-      0;  ///< of these, of triangles around one site that has parted, which no guard keeps apart
+  /// Of these, of triangles around one site that has parted, which no guard keeps apart.
+  std::int64_t around_sites = 0;
   /// Numbers of their triangles (triangle_at), the smaller first, rising: of all pairs, or of those found first.
   std::vector<std::array<int, 2>> listed;
   bool complete = true;  ///< whether all triangles were looked at: otherwise there are at least so many pairs

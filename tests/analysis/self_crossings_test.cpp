@@ -44,6 +44,10 @@ TEST_CASE("words for one pair, many, and a count that was given up") {
         "The cloth passes through itself: 1 pair of triangles crosses.");
   CHECK(crossings_in_words({.pairs = 12345, .listed = {}, .complete = false}) ==
         "The cloth passes through itself: at least 12,345 pairs of triangles cross.");
+  CHECK(crossings_in_words({.pairs = 1, .around_sites = 1, .listed = {}}) ==
+        "The cloth passes through itself: 1 pair of triangles crosses, around a site that has parted.");
+  CHECK(crossings_in_words({.pairs = 5, .around_sites = 2, .listed = {}}) ==
+        "The cloth passes through itself: 5 pairs of triangles cross, 2 of them around a site that has parted.");
 }
 
 TEST_CASE("a mass on a spring and a cloth that has diverged have none") {

@@ -36,8 +36,8 @@ class ImplicitSolver final : private implicit::EitherStage {
     Solver solver;
     bool changed;
     const Field* air;  ///< accelerations that the stage has beside those of its positions and velocities; or null
-    const implicit::Beside*
-        beside;  ///< what the cloth has beside the lattice, which Newton's method alone knows; or null
+    /// What the cloth has beside the lattice, which Newton's method alone knows; or null.
+    const implicit::Beside* beside;
   };
 
   /// A step begins, whose stages come next.
