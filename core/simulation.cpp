@@ -1,8 +1,10 @@
 #include "core/simulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <utility>
 
@@ -118,7 +120,7 @@ static StateRows copied_rows(const StateRows& sites, const Tears& tears) {
   return [state, rows = rows_of(*state, lattice.columns)](int i, const StateRow& to) { rows(i, to); };
 }
 
-Simulation::Simulation(const Preset& preset, int threads) : threads_(threads) {
+Simulation::Simulation(const Preset& preset, int threads) : threads_(threads), past_(preset) {
   assert(threads >= 1 && can_run(preset));
   build(preset);
 }
@@ -149,7 +151,9 @@ Simulation::Simulation(const Simulation& from)
       diverged_preset_(from.diverged_preset_),
       revision_(from.revision_),
       tear_revision_(from.tear_revision_),
-      watch_(from.watch_) {}
+      watch_(from.watch_),
+      past_(from.past_),
+      keeps_hashes_(from.keeps_hashes_) {}
 
 void Simulation::build(const Preset& next) {
   driven_.clear();
@@ -249,6 +253,23 @@ int Simulation::drive_pins() {
   return int(std::min(span.end - step, most));
 }
 
+/// The recording once that edit has been made.
+Recording Simulation::past_with(const Edit& edit) const {
+  Recording past = past_;
+  past.add(std::visit(
+      Overloaded{[&](const edit::Change& e) -> Event { return event::Change{settings_between(preset_, e.preset)}; },
+                 [](const auto& e) -> Event { return e; }},
+      edit));
+  return past;
+}
+
+void Simulation::continue_recording(const Simulation& replaced) {
+  assert(steps_ == 0);
+  Recording past = replaced.past_with(edit::Change{preset_});
+  past.add(edit::Restart{});
+  past_ = std::move(past), keeps_hashes_ = replaced.keeps_hashes_;
+}
+
 void Simulation::apply(const Edit& edit) {
   if (rebuilds(edit)) {
     const std::unique_ptr<Simulation> other = rebuilt(edit);
@@ -256,6 +277,7 @@ void Simulation::apply(const Edit& edit) {
     return take(*other);
   }
   if (watch_) energy();  // whose memory is there then once the edit has been made
+  Recording past = past_with(edit);
   std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [](const edit::Restart&) {},
                         [&](const edit::Grab& e) { grab(e); }, [&](const edit::MoveHand& e) { move_hand(e); },
                         [&](const edit::Release&) { release(); }, [&](const edit::Cut& e) { cut(e); },
@@ -263,6 +285,7 @@ void Simulation::apply(const Edit& edit) {
                         [&](const edit::MoveBody& e) { move_body(e); }},
              edit);
   ++revision_;
+  past_ = std::move(past);
   watch_edit(source_of(edit));
 }
 
@@ -354,9 +377,11 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   const Preset& next = change != nullptr ? change->preset : preset_;
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   const EffectSet changed = changes(preset_, next);
+  Recording past = past_with(edit);
   if (change == nullptr || changed.touches(Effect::rebuild)) {
     auto fresh = std::make_unique<Simulation>(next, threads_);
     fresh->enable_ledger(watch_.has_value()), fresh->limit_steps(step_limit_);
+    fresh->past_ = std::move(past), fresh->keeps_hashes_ = keeps_hashes_;
     return fresh;
   }
   check_tears(next);
@@ -373,6 +398,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
     if (changed.touches(Effect::pins)) other->take_pins();
   }
   ++other->revision_;
+  other->past_ = std::move(past);
   other->watch_edit(Ledger::Source::edits);
   return other;
 }
@@ -561,6 +587,7 @@ Preset Simulation::posed() const {
 void Simulation::limit_steps(double seconds) {
   assert(seconds >= 0);
   step_limit_ = seconds;
+  if (seconds > 0) past_.give_up_repeating();
   engine_->limit_steps(seconds);
 }
 
@@ -583,6 +610,10 @@ AdvanceResult Simulation::advance(int steps) {
 
 /// As far as the engine goes by itself: what follows from the steps is done.
 AdvanceResult Simulation::advance_part(int steps) {
+  constexpr auto between = Recording::between_hashes;
+  // A device would have to hand over all positions.
+  const bool hashes = keeps_hashes_ && preset_.engine != EngineKind::opencl;
+  if (hashes) steps = int(std::min<std::int64_t>(steps, between - past_.steps() % between));
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
   if (pushed_until_ && *pushed_until_ <= steps_) end_push();
   if (pushed_until_) steps = int(std::min<std::int64_t>(steps, *pushed_until_ - steps_));
@@ -607,7 +638,41 @@ AdvanceResult Simulation::advance_part(int steps) {
     hold({held_.particle, {0, 0, 0}});
     watch_edit(Ledger::Source::hand);
   }
+  past_.add_steps(part.steps);
+  if (part.diverged) past_.add(event::Diverge{});
+  if (hashes && part.steps > 0 && past_.steps() % between == 0) past_.add(event::Hash{hash()});
+  if (hashes && part.steps > 0 && past_.steps() % Recording::between_looks == 0) past_.add(look());
   return part;
+}
+
+event::Look Simulation::look() const {
+  const Lattice sites = lattice_.sites();
+  event::Look look;
+  for (const int i : {0, sites.rows / 2, sites.rows - 1})
+    for (const int j : {0, sites.columns / 2, sites.columns - 1}) look.x.push_back(position(i, j));
+  return look;
+}
+
+std::uint64_t Simulation::hash() const {
+  constexpr std::uint64_t seed = 14695981039346656037u, factor = 0x9e3779b97f4a7c15u;
+  std::uint64_t hash = seed;
+  const auto add = [&](const auto* numbers, std::size_t count) {
+    const auto* bytes = reinterpret_cast<const char*>(numbers);
+    const std::size_t end = count * sizeof *numbers;
+    for (std::size_t at = 0; at < end; at += sizeof hash) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + at, std::min(sizeof word, end - at));
+      hash = std::rotl(hash ^ word, 29) * factor;
+    }
+  };
+  const PositionView view = engine_->positions();
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0, stride = std::size_t(view.stride); i < std::size_t(view.rows); ++i)
+      if (view.f[c] != nullptr)
+        add(view.f[c] + i * stride, std::size_t(view.columns));
+      else
+        add(view.d[c] + i * stride, std::size_t(view.columns));
+  return hash;
 }
 
 double Simulation::excess() {
@@ -660,12 +725,15 @@ Snapshot Simulation::snapshot() {
           time_at_dt_,
           effective_preset_.W,
           effective_preset_.u,
-          moving_pins_};
+          moving_pins_,
+          past_};
 }
 
 void Simulation::restore(const Snapshot& then) {
   assert(fits(then));
   // All that takes memory comes first.
+  Recording past = then.past;
+  past.add(event::Resume{settings_between(then.of, preset_), then.held != nullptr});
   Tears tears = then.tears;
   std::vector<std::uint8_t> pinned_mask = pins_of(preset_, tears);
   std::vector<int> pinned = particles_in(pinned_mask);
@@ -718,14 +786,18 @@ void Simulation::restore(const Snapshot& then) {
     steps_at_dt_ = then.steps_at_dt, time_at_dt_ = then.time_at_dt;
   }
   ++revision_, ++tear_revision_;
+  past_ = std::move(past);
   if (watch_) enable_ledger(true);
 }
 
 void Simulation::load(const State& state) {
+  Recording past = past_;
+  past.add(event::Load{std::make_shared<const State>(state)});
   engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
   engine_->load(state, tears_);
   moving_pins_ = moving_pins(preset_, pinned_);
   untouched_ = false;
+  past_ = std::move(past);
   ++revision_;
 }
 

@@ -16,6 +16,7 @@
 #include "core/model/effect.h"
 #include "core/model/preset.h"
 #include "core/moving_pins.h"
+#include "core/recording.h"
 
 namespace tyglab {
 
@@ -52,6 +53,7 @@ struct Snapshot {
   glm::dvec3 W{0};                           ///< the wind of the last step, N: that of the next begins with a new gust
   glm::dvec3 u{0};                           ///< likewise, m/s
   MovingPins moving_pins{};
+  Recording past;  ///< what led there
   std::size_t bytes() const {
     return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0) + moving_pins.bytes();
   }
@@ -152,6 +154,22 @@ class Simulation {
   /// Puts positions and full-step velocities in place of the present ones; time, tears and constants stay.
   void load(const State& state);
 
+  /// What has happened since the first preset, restarts included.
+  const Recording& past() const { return past_; }
+  /// Adds a user's word to it.
+  void mark(std::string words) { past_.add(event::Mark{std::move(words)}); }
+  /// Continues the recording of the cloth that this one, built from its constants, replaces: as if they had been
+  /// changed there, and the cloth restarted.
+  void continue_recording(const Simulation& replaced);
+  /// Whether the recording has checks of the positions, each as long as reading them all takes, so that a repetition
+  /// can be compared.
+  void keep_hashes(bool on) { keeps_hashes_ = on; }
+  bool keeps_hashes() const { return keeps_hashes_; }
+  /// Of the bits of all positions.
+  std::uint64_t hash() const;
+  /// Where the sites at the corners, in the middles of the edges and in the middle are.
+  event::Look look() const;
+
   /// Size of the arrays outside the engine: masks, and the state once it has been read.
   std::size_t bytes() const;
 
@@ -174,6 +192,7 @@ class Simulation {
   Simulation(const Simulation& from);
   Simulation& operator=(Simulation&& from) noexcept = default;
   void build(const Preset& next);
+  Recording past_with(const Edit& edit) const;
   void take(Simulation& other) noexcept;
   /// Particles that do not move freely.
   struct Fixed {
@@ -247,6 +266,8 @@ class Simulation {
   std::uint64_t state_revision_ = ~0ull;
   std::uint64_t revision_ = 0, tear_revision_ = 0;
   std::optional<EnergyWatch> watch_;
+  Recording past_;
+  bool keeps_hashes_ = false;
 };
 
 }  // namespace tyglab

@@ -9,6 +9,7 @@
 
 #include "app/base/files.h"
 #include "app/base/settings.h"
+#include "app/base/experiment_file.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
@@ -190,6 +191,7 @@ PresetSource find_preset(const std::string& name_or_file, const std::vector<std:
 }
 
 Preset read_preset(const fs::path& file) {
+  if (is_experiment(file)) return load_experiment(file).recording.start();
   Preset preset = load_preset(file);
   preset.texture = in_folder(folder_of(file), preset.texture);
   return preset;

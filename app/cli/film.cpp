@@ -8,7 +8,7 @@
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
 #include "app/render/cloth_renderer.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "app/ui/kit/color_legend.h"
 #include "app/ui/kit/scene_picture.h"
 #include "core/io/terminal.h"

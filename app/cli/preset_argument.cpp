@@ -6,10 +6,11 @@
 #include <iostream>
 #include <system_error>
 
+#include "app/base/experiment_file.h"
 #include "app/base/files.h"
 #include "app/base/text.h"
 #include "app/cli/command_line.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
@@ -87,8 +88,8 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
     command_name = each->get_name() + (command_name.empty() ? "" : " ") + command_name;
   command
       .add_option("PRESET", preset,
-                  "A shipped preset's name (`tyglab presets` lists them), a preset file, or a link that the page or\n"
-                  "`Copy link` made: 'https://…" +
+                  "A shipped preset's name (`tyglab presets` lists them), a preset file, an experiment (F.tyglab), or a\n"
+                  "link that the page or `Copy link` made: 'https://…" +
                       std::string(example_link) + "' or its end from # on")
       ->required(required)
       ->check(not_empty());
@@ -252,6 +253,14 @@ void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional
   std::cerr << "tyglab: --tolerance chose " << resolved.choice->words(*tolerance) << '\n';
 }
 
+/// A recording names steps, so that others would make its events at other times.
+void PresetArgument::refuse_other_steps() const {
+  const std::string why = ": an experiment is repeated step by step, so its dt stays; leave the option out";
+  if (!dt.empty()) throw UsageError("--dt" + why);
+  if (sets("dt")) throw UsageError("--set dt=…" + why);
+  if (tolerance) throw UsageError("--tolerance" + why);
+}
+
 std::vector<Input> ResolvedPreset::inputs() const {
   return {{"the preset", source.file},
           {"the texture", preset.texture.empty() ? fs::path() : texture_file(preset.texture)}};
@@ -263,7 +272,14 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
   ResolvedPreset resolved;
   const std::optional<LinkedPreset> link = is_link(preset) ? std::optional(read_link(preset)) : std::nullopt;
   resolved.source = find_preset(link ? link->name : preset.empty() ? fallback : preset, commands);
-  const Preset read = link ? linked_preset(*link) : read_preset(resolved.source.file);
+  std::shared_ptr<Experiment> experiment;
+  if (!link && is_experiment(resolved.source.file)) {
+    refuse_other_steps();
+    experiment = std::make_shared<Experiment>(load_experiment(resolved.source.file));
+  }
+  const Preset read = link         ? linked_preset(*link)
+                      : experiment ? experiment->recording.start()
+                                   : read_preset(resolved.source.file);
   try {
     resolved.preset = with_parsed_settings(read, all_settings());
     if (resolved.preset.texture != read.texture) resolved.preset.texture = chosen_texture(resolved.preset.texture);
@@ -277,6 +293,11 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
   if (resolved.auto_dt) choose_dt(resolved);
   resolved.threads = threads > 0 ? threads : processors();
   if (engine == automatic) choose_engine(resolved);
+  if (experiment) {
+    resolved.as_recorded = resolved.preset == read;
+    experiment->recording = experiment->recording.beginning_with(resolved.preset);
+    resolved.experiment = std::move(experiment);
+  }
   return resolved;
 }
 

@@ -16,6 +16,7 @@
 namespace tyglab {
 
 struct EngineChoice;
+struct Experiment;
 struct ToleranceChoice;
 
 /// The engines that a command supports.
@@ -29,6 +30,8 @@ struct ResolvedPreset {
   bool auto_dt = false;  ///< --dt auto: dt is the one that AutoStep chose, and is to be watched
   std::shared_ptr<const ToleranceChoice> choice = {};      ///< --tolerance: what was chosen, and why; null: not asked
   std::shared_ptr<const EngineChoice> engine_choice = {};  ///< --engine auto, likewise
+  std::shared_ptr<const Experiment> experiment = {};       ///< to be repeated, from `preset` on; null: a preset alone
+  bool as_recorded = false;                                ///< with its own start
 
   /// The files that no output may replace.
   std::vector<Input> inputs() const;
@@ -69,6 +72,7 @@ struct PresetArgument {
   void add_engine(CLI::App& command);
   void choose_dt(ResolvedPreset& resolved) const;
   void choose_engine(ResolvedPreset& resolved) const;
+  void refuse_other_steps() const;
   /// The command line with another tolerance, for the user to type.
   std::string with_tolerance(double other, std::optional<double> seconds) const;
   void choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const;

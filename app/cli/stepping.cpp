@@ -42,6 +42,14 @@ void Length::warn_if_too_short(double dt) const {
   std::cerr << text << " s, so no step is computed; use more seconds or a smaller --dt.\n";
 }
 
+RunLength length_of(const Length& length, const Preset& preset, const Experiment* experiment) {
+  constexpr double default_seconds = 4;
+  if (experiment != nullptr && !length.seconds && !length.steps)
+    return {experiment->recording.steps(), std::llround(experiment->seconds / preset.dt)};
+  const std::int64_t steps = length.in_steps(preset.dt, default_seconds);
+  return {steps, steps};
+}
+
 FramePlan::FramePlan(std::optional<double> fps, double dt, std::int64_t steps)
     : fps_(fps.value_or(std::min(25.0, 1 / dt))), timeline_{dt} {
   constexpr double rounding = 1e-9;
@@ -75,11 +83,13 @@ void end_interrupted(const std::string& what_is_missing) {
       exit_interrupted);
 }
 
-Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt)
+Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt,
+                 Playback* playback)
     : simulation_(simulation),
       steps_(steps),
       end_time_(double(steps) * simulation.preset().dt),
       timeline_{simulation.preset().dt},
+      playback_(playback),
       progress_(what) {
   simulation_.stop_when(InterruptGuard::interrupted);
   if (const std::string coarse = precision_too_coarse(simulation.preset()); !coarse.empty()) {
@@ -96,19 +106,21 @@ bool Stepper::changed() {
 }
 
 bool Stepper::advance_to(std::int64_t step) {
-  while (simulation_.steps() < step && !simulation_.divergence() && !interrupted_ && !changed_) {
+  if (playback_ != nullptr) make_events();
+  while (made() < step && !ended() && !interrupted_ && !changed_) {
     interrupted_ = InterruptGuard::interrupted();
     if (!interrupted_) advance_portion(step);
   }
-  const bool reached = simulation_.steps() >= step;
-  if (!reached || simulation_.steps() >= steps_) progress_.clear();
+  const bool reached = made() >= step && !changed_;
+  if (!reached || made() >= steps_) progress_.clear();
   return reached;
 }
 
 void Stepper::advance_portion(std::int64_t step) {
   using Clock = std::chrono::steady_clock;
   constexpr std::int64_t between_looks = 64;
-  const auto portion = std::min({portion_, step - simulation_.steps(), auto_ ? between_looks : portion_});
+  auto portion = std::min({portion_, step - made(), auto_ ? between_looks : portion_});
+  if (playback_ != nullptr && !playback_->over(simulation_)) portion = std::min(portion, playback_->steps_to_next(simulation_));
   const auto start = Clock::now();
   simulation_.advance(static_cast<int>(portion));
   const double took = std::chrono::duration<double>(Clock::now() - start).count();
@@ -118,7 +130,17 @@ void Stepper::advance_portion(std::int64_t step) {
   if (took > 0.1 && portion_ > 1) portion_ /= 2;
   if (auto_) look_at_ledger();
   look_at_precision();
-  progress_.update(double(simulation_.steps()) / double(steps_));
+  progress_.update(double(made()) / double(steps_));
+  if (playback_ != nullptr) make_events();
+}
+
+/// Those of the recording that are due.
+void Stepper::make_events() {
+  while (playback_->due(simulation_) != nullptr) playback_->apply_next(simulation_);
+  const double dt = simulation_.preset().dt;
+  if (dt == timeline_.dt) return;
+  timeline_ = {dt, made(), timeline_.t + double(made() - timeline_.step) * timeline_.dt};
+  changed_ = true;
 }
 
 /// Says with the first step that only more digits could solve what is in store.

@@ -8,6 +8,8 @@
 
 #include "app/cli/command_line.h"
 #include "core/energy/auto_step.h"
+#include "core/output/experiment.h"
+#include "core/playback.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -24,6 +26,13 @@ struct Length {
   /// Prints a line on stderr if the seconds typed are too short for a single step of dt.
   void warn_if_too_short(double dt) const;
 };
+
+/// The steps of a run, and as many of its first dt as take the same time, for its frames.
+struct RunLength {
+  std::int64_t steps, of_first_dt;
+};
+/// As long as was typed; otherwise as the experiment is, or 4 s where there is none (null).
+RunLength length_of(const Length& length, const Preset& preset, const Experiment* experiment);
 
 /// The time at the end of each step, from the last change of dt on.
 struct Timeline {
@@ -60,12 +69,16 @@ bool takes_long_to_show(const Simulation& simulation);
 class Stepper {
  public:
   /// `auto_dt`: halves dt where the energy ledger asks for it.
-  Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt = false);
+  /// `playback`: of a recording, whose events are made; it must outlive the stepper. Null: there are none.
+  Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt = false,
+          Playback* playback = nullptr);
   /// Advances to that step. False if it ended before: diverged, interrupted, or dt has changed (changed()).
   bool advance_to(std::int64_t step);
   /// Whether dt has changed since the last call, so that plans in steps must be made again.
   bool changed();
   const Timeline& timeline() const { return timeline_; }
+  /// Steps made since the run began, restarts included.
+  std::int64_t made() const { return simulation_.past().steps(); }
   /// The step with which the run ends.
   std::int64_t end() const { return steps_; }
   bool interrupted() const { return interrupted_; }
@@ -74,6 +87,8 @@ class Stepper {
 
  private:
   void advance_portion(std::int64_t step);
+  bool ended() const { return simulation_.divergence() && !(playback_ != nullptr && playback_->due(simulation_) != nullptr); }
+  void make_events();
   void look_at_ledger();
   void look_at_precision();
 
@@ -82,6 +97,7 @@ class Stepper {
   double end_time_;  ///< s
   Timeline timeline_;
   std::optional<AutoStep> auto_;
+  Playback* playback_;
   bool changed_ = false;
   Progress progress_;
   std::int64_t portion_ = 1;

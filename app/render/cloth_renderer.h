@@ -15,7 +15,7 @@
 #include "app/base/vertex_path.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_texture.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "core/cloth/lattice.h"
 #include "core/simulation.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/render/gl_objects.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 
 namespace tyglab {
 

@@ -6,7 +6,7 @@
 
 #include "app/render/camera.h"
 #include "app/render/gl_objects.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 
 namespace tyglab {
 

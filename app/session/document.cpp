@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "app/base/experiment_file.h"
 #include "app/base/files.h"
 #include "app/base/settings.h"
 #include "app/base/text.h"
@@ -33,11 +34,14 @@ void begin_document(Session& session, Document document) {
   session.document = std::move(document);
   if (session.show_texture)
     if (const auto problem = session.show_texture(session.preset().texture)) session.messages.error(*problem);
+  session.repetition.reset();
   session.history.clear(), session.rewind.clear(), session.curves.clear(), session.auto_dt.reset();
   session.picked = first_pick(session);
   session.recorded.clear();
   session.pacing.forget_cost(), session.pacing.restart_measure();
   ++session.counts.documents;
+  if (auto experiment = std::exchange(session.document.experiment, nullptr))
+    begin_repetition(session, std::move(experiment));
 }
 
 std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, std::string& fallback) {
@@ -54,6 +58,7 @@ void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildO
   assert(simulation != nullptr && !order.programs);
   settle(session);
   const Preset before = session.preset();
+  if (order.fresh && !order.document) simulation->continue_recording(*session.simulation);
   swap_in(session, std::move(simulation));
   if (order.document) return begin_document(session, std::move(*order.document));
   follow_up(session, before, changes(before, session.preset()));
@@ -75,6 +80,11 @@ void reopen_document(Session& session, const Preset& preset, const Document& doc
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,
                    const std::vector<std::string>& settings) {
   try {
+    if (is_experiment(file)) {
+      const auto experiment = std::make_shared<const Experiment>(load_experiment(file));
+      const Preset& start = experiment->recording.start();
+      return reopen_document(session, start, {start, file.stem().string(), {}, experiment});
+    }
     const Preset preset = with_settings(read_preset(file), settings);
     reopen_document(session, preset, {preset, file.stem().string(), shipped ? std::filesystem::path() : file});
   } catch (const std::bad_alloc&) {

@@ -184,7 +184,7 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     const Plan plan = plan_of(session, edit);
     if (!take_texture(session, plan)) return false;
     const bool only_seen = plan.change != nullptr && plan.document.within(motionless);
-    if (!only_seen) settle(session);  // a stand-in of the cloth takes no others
+    if (!only_seen) settle(session), leave_repetition(session);  // a stand-in of the cloth takes no others
     std::optional<HistoryEntry> motion = before_motion(session, plan, gesture);
     const auto torn = session.simulation->tears().torn_count();
     if (const auto taken = build_beside(session, plan, gesture)) {

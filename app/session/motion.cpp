@@ -1,6 +1,7 @@
 #include "app/session/motion.h"
 
 #include <cassert>
+#include <glm/common.hpp>
 #include <memory>
 #include <new>
 #include <string>
@@ -27,6 +28,7 @@ void go_on_from_here(Session& session) {
 
 /// Brings a state back that an undo or a redo is about.
 void bring_back(Session& session, const Snapshot& then) {
+  leave_repetition(session);
   then.t <= session.simulation->time() ? session.rewind.forget_after(then.t) : session.rewind.clear();
   session.simulation->restore(then);
   go_on_from_here(session);
@@ -42,6 +44,7 @@ void restart(Session& session) {
 
 void go_back(Session& session, const Snapshot& then) {
   assert(!session.background_steps.busy());
+  leave_repetition(session);
   session.rewind.go_back(*session.simulation, then);
   session.history.go_back(session.simulation->time());
   go_on_from_here(session);
@@ -145,12 +148,15 @@ void reset_everything(Session& session) {
 
 void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int steps) {
   assert(steps >= 0);
-  if (hand && steps > 0) apply_edit(session, edit::MoveHand{*hand, steps});
+  // To 0.1 µm, so that recordings are short.
+  constexpr double finest = 1e7;
+  if (hand && steps > 0) apply_edit(session, edit::MoveHand{glm::round(*hand * finest) / finest, steps});
 }
 
 void single_step(Session& session, const std::optional<glm::dvec3>& hand) {
   session.pacing.playing = false;
   if (session.rebuild.holds_present() || session.background_steps.busy() || awaits_prediction(session)) return;
+  if (session.repetition && !make_recorded_events(session)) return;
   move_hand(session, hand, 1);
   sample_start(session);
   if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, 1);
@@ -223,7 +229,8 @@ std::string tears_in_words(const Tears& tears) {
 std::string time_in_words(const Session& session) {
   const Tears& tears = session.simulation->tears();
   return "t = " + time_number(clock_time(session), session.preset().dt) + " s" +
-         (tears.untorn() ? "" : ", " + tears_in_words(tears));
+         (tears.untorn() ? "" : ", " + tears_in_words(tears)) +
+         (session.repetition ? ", " + repetition_in_words(session) : "");
 }
 
 }  // namespace tyglab

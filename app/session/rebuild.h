@@ -27,6 +27,7 @@
 
 namespace tyglab {
 
+struct Experiment;
 struct Session;
 
 /// The preset that was opened or saved last: what "unsaved" and every reset compare with.
@@ -34,6 +35,7 @@ struct Document {
   Preset saved;
   std::string label;
   std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+  std::shared_ptr<const Experiment> experiment = {};  ///< to be repeated; null: a preset was opened
 };
 
 /// The cloth to be built.

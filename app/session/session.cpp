@@ -114,6 +114,8 @@ void Session::step(double real_seconds, const SessionInput& input) {
   for (std::size_t n = 0; n < copies.lockstep.size(); ++n) copies.lockstep[n].simulation->limit_steps(step_limit);
   if (awaits_prediction(*this)) pacing.playing = false;
   sleep.begin(*simulation);
+  if (!simulation->keeps_hashes()) simulation->keep_hashes(true);
+  if (repetition && pacing.playing && !rebuild.busy()) make_recorded_events(*this);
   if (const bool wanted = wants.ledger || auto_dt; wanted != simulation->ledger().has_value())
     if (!wanted || rebuild.ledger_ready(*this)) simulation->enable_ledger(wanted);
   if (!pacing.playing || behind_page || asleep() || rebuild.holds_present() || studies.engine.busy()) return;
@@ -134,7 +136,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
   // A step of a lab may measure for how long nothing happens.
   const bool measures = labs.run && !labs.run->record().done;
   if (!background_steps.busy() && !scripted && !any_moves(preset().bodies) && preset().pins.motions.empty())
-    sleep.look(*simulation, input.touched || !copies.lockstep.empty() || measures);
+    sleep.look(*simulation, input.touched || repetition || !copies.lockstep.empty() || measures);
 }
 
 /// In pieces, so that a wrong guess of a step's cost cannot hold the window up.
@@ -147,11 +149,13 @@ void Session::make_steps(int due, const SessionInput& input) {
   int made = 0;
   double stepping_s = 0;
   if (due > 0) sample_start(*this);
-  while (made < due && !simulation->divergence() && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
+  while (made < due && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
+    if ((repetition && !make_recorded_events(*this) && !pacing.playing) || simulation->divergence()) break;
     const double cost = pacing.step_cost_s();
     const int to_sample = std::max(samples - int(steps_made - recorded.sampled), 1);
     const int piece = cost > 0 && !input.after_steps
-                          ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, std::min(due - made, to_sample))
+                          ? std::clamp(int(0.25 * pacing.budget_s / cost), 1,
+                                       std::min(up_to_next_event(*this, due - made), to_sample))
                           : 1;
     assert(piece >= 1 && piece <= due - made);
     const double before = spent();
@@ -234,6 +238,9 @@ void fall_back(Session& session, const std::string& why) {
   auto simulation = std::make_unique<Simulation>(next, session.threads);
   if (const Snapshot* then = session.rewind.before(*simulation, session.simulation->time(), 0))
     simulation->restore(*then);
+  else
+    simulation->continue_recording(*session.simulation);
+  leave_repetition(session);
   session.messages.error(why + " The CPU engine continues from t = " + time_number(simulation->time(), next.dt) +
                          " s.");
   ++session.counts.hands;

@@ -19,6 +19,7 @@
 #include "app/session/lab_state.h"
 #include "app/session/pacing.h"
 #include "app/session/recorded.h"
+#include "app/session/repetition.h"
 #include "app/session/requests.h"
 #include "app/session/rewind.h"
 #include "app/session/sleep.h"
@@ -76,6 +77,7 @@ struct Session {
   LabState labs;
   Messages messages;
   FrameCosts costs;
+  std::optional<Repetition> repetition;  ///< of an experiment, while it goes on
   std::optional<Replay> replay;     ///< of the last steps before a divergence, while it goes on
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
   std::optional<Pins::Site> picked;

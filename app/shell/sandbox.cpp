@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 
+#include "app/base/experiment_file.h"
 #include "app/base/files.h"
 #include "app/base/text.h"
 #include "app/platform/platform.h"
@@ -184,7 +185,7 @@ std::optional<std::string> Sandbox::show_texture(const std::string& texture) {
 }
 
 Document Sandbox::first_document() {
-  if (!restores()) return {options_.preset, options_.preset_label, options_.preset_path};
+  if (!restores()) return {options_.preset, options_.preset_label, options_.preset_path, options_.experiment};
   const LastSession& session = *settings_.session;
   // What was saved is on disk; where it is gone, the session itself is all there is.
   try {
@@ -269,7 +270,7 @@ void Sandbox::take_dropped_files() {
       if (texture_file(session_.preset().texture) == file) show_texture(session_.preset().texture);
       continue;
     }
-    if (file.extension() == ".json") {
+    if (file.extension() == ".json" || is_experiment(file)) {
       session_.request(request::Open{.file = file});
     } else {
       session_.request(request::LoadTexture{name});
@@ -408,6 +409,10 @@ int Sandbox::write_outputs() {
                    session_.costs.json(size.x, size.y, session_.simulation->engine().name(), session_.document.label));
     }
     if (report_) report_->finish(ui_);
+    if (!options_.record.empty()) {
+      settle(session_);
+      save_experiment(experiment_of(*session_.simulation), options_.record);
+    }
   } catch (const OutputError& error) {
     std::cerr << "tyglab: " << error.what() << '\n';
     return no_output;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -18,9 +19,12 @@
 
 namespace tyglab {
 
+struct Experiment;
+
 struct SandboxOptions {
   Preset preset;
   std::string preset_label;              ///< shipped name or file name, for the title
+  std::shared_ptr<const Experiment> experiment;  ///< to be repeated, from the preset on; null: none
   std::filesystem::path preset_path;     ///< empty if the preset does not come from a user's file
   bool explicit_preset = false;          ///< otherwise the last session's preset is restored
   int threads = 1;                       ///< of the CPU engine, at most
@@ -28,6 +32,7 @@ struct SandboxOptions {
   int frames = 0;                        ///< ends after that many frames; 0: until the window is closed
   std::filesystem::path screenshot;      ///< PNG of the last frame, empty: none
   std::filesystem::path time_report;     ///< JSON of the frame's cost by part, empty: none
+  std::filesystem::path record;          ///< the experiment, written at the end; empty: none
   std::filesystem::path session_report;  ///< JSON of what goes on, rewritten all the time, empty: none
   std::optional<ParticleField> color;    ///< what colors the cloth; none: as in the last session
   std::optional<Effects::Mode> effects;  ///< none: all with `frames`, else as in the last session

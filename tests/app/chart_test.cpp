@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "app/platform/platform.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/scene_picture.h"
 

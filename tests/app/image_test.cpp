@@ -1,7 +1,7 @@
 // Pictures in and out.
 #include <doctest/doctest.h>
 
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "core/io/output_file.h"
 #include "tests/support/files.h"
 #include "tests/support/pictures.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "app/base/settings.h"
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "app/shell/sandbox.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"

@@ -97,9 +97,7 @@ class Stepping final : public test::Scene {
 /// A cloth that goes back to an earlier moment.
 class Back final : public test::Scene {
  public:
-  explicit Back(const Preset& preset) : cloth_(preset) {
-    cloth_.advance(3);
-    then_ = cloth_.snapshot();
+  explicit Back(const Preset& preset) : cloth_(preset), then_((cloth_.advance(3), cloth_.snapshot())) {
     cloth_.apply(edit::Grab{8, 6});
     cloth_.advance(4);
   }

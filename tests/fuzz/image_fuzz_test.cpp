@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "tests/support/files.h"
 #include "tests/support/pictures.h"
 #include "tests/support/places.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::test {

@@ -52,11 +52,11 @@ int render(const RenderOptions& options) {
   if (!options.color.empty() && scene.preset.kind != Kind::cloth)
     throw UsageError("--color: " + in_one_line(label) +
                      " is a mass on a spring, without a cloth to color; leave the option out");
-  const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  const RunLength length = length_of(options.length, scene.preset, scene.experiment.get());
   options.length.warn_if_too_short(scene.preset.dt);
   const PictureSize size = parse_size(options.size, smallest_picture);
   const bool sequence = wants_sequence(options);
-  FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);
+  FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, length.of_first_dt);
   if (sequence) {
     make_output_folder("--png", options.png);
   } else {
@@ -66,7 +66,9 @@ int render(const RenderOptions& options) {
   Film film(scene.preset, options.view, size, field_called(options.color));
   Simulation simulation(scene.preset, scene.threads);  // whose device may share buffers with the film's OpenGL
   const InterruptGuard guard;
-  Stepper stepper(simulation, steps, label, scene.auto_dt);
+  std::optional<Playback> playback;
+  if (scene.experiment) playback.emplace(scene.experiment->recording);
+  Stepper stepper(simulation, length.steps, label, scene.auto_dt, playback ? &*playback : nullptr);
   std::int64_t frame = 0;
   fs::path written = options.png;
   if (sequence) {
@@ -129,7 +131,8 @@ void add_render_command(CLI::App& program, Action& action) {
   command->footer(
       "Examples: tyglab render flag --seconds 3 --view 1 --size 1920x1080 --png flag.png\n"
       "          tyglab render hanging --seconds 0.4 --color strain --png strain.png\n"
-      "          tyglab render denim --seconds 4 --png frames --fps 25");
+      "          tyglab render denim --seconds 4 --png frames --fps 25\n"
+      "          tyglab render demo.tyglab --png film --fps 25");
   command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

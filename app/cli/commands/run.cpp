@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/base/experiment_file.h"
 #include "app/base/files.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
@@ -41,7 +42,7 @@ using Json = nlohmann::ordered_json;
 struct RunOptions {
   PresetArgument preset;
   Length length;
-  std::string state, values, series, ledger, obj, pc2, json;
+  std::string state, values, series, ledger, obj, pc2, json, record;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
   bool material = false;
@@ -50,7 +51,7 @@ struct RunOptions {
   /// All but --obj, which names a folder.
   std::vector<Output> outputs() const {
     return {{"--state", state},   {"--values", values}, {"--series", series},
-            {"--ledger", ledger}, {"--pc2", pc2, true}, {"--json", json}};
+            {"--ledger", ledger}, {"--pc2", pc2, true}, {"--record", record, true}, {"--json", json}};
   }
   bool wants_frames() const { return !obj.empty() || !pc2.empty(); }
 
@@ -111,7 +112,7 @@ class Outputs {
 
   /// Writes what is due at the present step.
   void write_due(Simulation& simulation) {
-    const std::int64_t step = simulation.steps();
+    const std::int64_t step = simulation.past().steps();
     if (options_.wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
       const VectorField<double>& x = simulation.read().x;
       if (cache_) cache_->add(x);
@@ -154,6 +155,7 @@ class Outputs {
     const Reach moment = interrupted ? Reach::stopped : Reach::whole;
     if (!options_.state.empty()) add("state", write_output(options_.state, state_csv(simulation), moment));
     if (!options_.values.empty()) add("values", write_output(options_.values, values_csv(simulation, nullptr), moment));
+    if (!options_.record.empty()) add("experiment", save_experiment(experiment_of(simulation), options_.record, moment));
     return files;
   }
 
@@ -301,9 +303,21 @@ Json crossings_json(const std::optional<Crossings>& crossings) {
   return crossings && crossings->complete ? Json(crossings->pairs) : Json();
 }
 
+/// How the repetition of an experiment compared with it; null where none was repeated.
+Json repetition_json(const Playback* playback) {
+  if (playback == nullptr) return nullptr;
+  const Playback::Comparison& found = playback->comparison();
+  return {{"recorded_steps", playback->recording().steps()},
+          {"exact", playback->recording().repeats()},
+          {"compared", found.compared},
+          {"equal_until", found.equal_until},
+          {"differs_at", found.differs_at ? Json(*found.differs_at) : Json()},
+          {"apart_m", found.looked_at > 0 ? finite_json(found.apart) : Json()}};
+}
+
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
-             double ns_per_particle_step, const EndFindings& end, Json files) {
+             double ns_per_particle_step, const EndFindings& end, const Playback* playback, Json files) {
   const Preset& preset = simulation.preset();
   return {{"version", TYGLAB_VERSION},
           {"preset", scene.source.label},
@@ -335,6 +349,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"energy", energy_json(simulation)},
           {"energy_over_given", finite_json(end.excess)},
           {"diverged", divergence_json(simulation.divergence())},
+          {"repetition", repetition_json(playback)},
           {"files", std::move(files)},
           {"crossings", crossings_json(end.crossings)}};
 }
@@ -384,36 +399,39 @@ int run(const RunOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_texture(scene.preset);
   if (options.step_limit_ms > 0) check_step_limit(scene.preset);
-  const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  const RunLength length = length_of(options.length, scene.preset, scene.experiment.get());
   options.length.warn_if_too_short(scene.preset.dt);
-  Outputs outputs(options, scene, steps);
+  Outputs outputs(options, scene, length.of_first_dt);
   run_programs_once(scene.preset, !options.ledger.empty());  // that time is none of the steps'
   Simulation simulation(scene.preset, scene.threads);
   simulation.limit_steps(options.step_limit_ms / 1000);
   if (!options.ledger.empty()) simulation.enable_ledger(true);
+  if (!options.record.empty()) simulation.keep_hashes(true);
   outputs.open(simulation);
+  std::optional<Playback> playback;
+  if (scene.experiment) playback.emplace(scene.experiment->recording);
 
   const InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
-  Stepper stepper(simulation, steps, scene.source.label, scene.auto_dt);
+  Stepper stepper(simulation, length.steps, scene.source.label, scene.auto_dt, playback ? &*playback : nullptr);
   bool going = true;
   do {
     outputs.write_due(simulation);
     going = stepper.advance_to(std::min(stepper.end(), outputs.next_step()));
     if (stepper.changed()) outputs.follow(stepper.timeline()), going = true;
-  } while (going && simulation.steps() < stepper.end());
+  } while (going && stepper.made() < stepper.end());
   if (going) outputs.write_due(simulation);
   const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const bool diverged = simulation.divergence().has_value();
-  const double particle_steps = double(simulation.steps()) * simulation.tears().particles();
+  const double particle_steps = double(stepper.made()) * simulation.tears().particles();
   const bool in_haste = stepper.interrupted() && takes_long_to_show(simulation);
   const EndFindings end = findings_at_end(simulation, in_haste);
   const Json report = summary(simulation, scene,
                               diverged                ? "diverged"
                               : stepper.interrupted() ? "interrupted"
                                                       : "done",
-                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0, end,
+                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0, end, playback ? &*playback : nullptr,
                               outputs.finish(simulation, stepper.interrupted()));
   std::string summary_name;
   if (!options.json.empty())
@@ -421,6 +439,9 @@ int run(const RunOptions& options) {
         write_output(options.json, json_text(report), stepper.interrupted() ? Reach::stopped : Reach::whole));
 
   people(options.outputs()) << closing(report, summary_name) << std::endl;
+  if (playback)
+    people(options.outputs()) << "Repeated " << in_one_line(scene.source.label) << ".tyglab: "
+                              << comparison_in_words(*playback, *scene.experiment, scene.as_recorded) << std::endl;
   if (in_haste)
     end_interrupted(options.state.empty() && options.values.empty()
                         ? ""
@@ -486,6 +507,10 @@ void add_run_command(CLI::App& program, Action& action) {
   command->add_option("--fps", options->fps, "Frames per second of simulated time (default 25)")
       ->type_name("F")
       ->transform(number_between(1e-6, 1e7, "frames per second"));
+  add_output(*command, "--record", options->record,
+             "Write the run as an experiment: its preset, its events, and checks of the positions. `tyglab run F.tyglab`\n"
+             "repeats it and compares the positions; the sandbox opens it")
+      ->type_name("F.tyglab");
   add_output(*command, "--json", options->json, "Write a summary for programs")->type_name("F.json");
   command->footer(
       "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"

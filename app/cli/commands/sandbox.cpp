@@ -22,11 +22,12 @@ constexpr PictureSize smallest_window{480, 320};
 struct Options {
   PresetArgument preset;
   int frames = 0, lab_step = 0;
-  std::string screenshot, time_report, session_report, color, effects, size, lab;
+  std::string screenshot, time_report, session_report, record, color, effects, size, lab;
   bool no_panels = false;
 
   std::vector<Output> outputs() const {
-    return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
+    return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report},
+            {"--record", record}};
   }
 };
 
@@ -51,7 +52,8 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   SandboxOptions sandbox;
   sandbox.preset = scene.preset;
   sandbox.preset_label = scene.source.label;
-  if (scene.source.file.parent_path() != find_preset(default_preset).file.parent_path())
+  sandbox.experiment = scene.experiment;
+  if (!scene.experiment && scene.source.file.parent_path() != find_preset(default_preset).file.parent_path())
     sandbox.preset_path = scene.source.file;
   sandbox.explicit_preset = options.preset.typed();
   sandbox.threads = scene.threads;
@@ -60,7 +62,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.width = size.width, sandbox.height = size.height;
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;
-  sandbox.session_report = options.session_report;
+  sandbox.session_report = options.session_report, sandbox.record = options.record;
   if (options.effects == "auto") sandbox.effects = Effects::Mode::automatic;
   if (options.effects == "all") sandbox.effects = Effects::Mode::all;
   if (options.effects == "few") sandbox.effects = Effects::Mode::few;
@@ -109,6 +111,10 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   add_output(program, "--session-report", options->session_report,
              "Write the state of the window about ten times per second as JSON (docs/session-report.md)")
       ->type_name("F.json");
+  add_output(program, "--record", options->record,
+             "Write what was done since the preset was opened as an experiment, when the window closes;\n"
+             "`tyglab F.tyglab` repeats it")
+      ->type_name("F.tyglab");
   program
       .add_option("--effects", options->effects,
                   "Soft shadows and smooth edges: auto turns off what this machine draws too slowly")

@@ -102,7 +102,7 @@ void open_presets(Ui& ui) {
   });
   if (dialog.kind != DialogKind::open) return;
   if (files_are_handed_out()) {
-    if (text_button(ui, "Choose a file…", true)) ask_for_file(".json"), close(ui);
+    if (text_button(ui, "Choose a file…", true)) ask_for_file(".json,.tyglab"), close(ui);
     ImGui::SameLine();
     if (text_button(ui, "Cancel")) close(ui);
     return;
@@ -119,7 +119,7 @@ void open_presets(Ui& ui) {
   fs::path file;
   try {
     file = find_preset(path_of(dialog.path).string()).file;  // shipped ones by name, as on the command line
-    load_preset(file);                                       // a wrong file is said here, where another can be chosen
+    read_preset(file);                                       // a wrong file is said here, where another can be chosen
   } catch (const std::exception& error) {
     return refuse(dialog, error.what());
   }

@@ -1,6 +1,7 @@
 // Files that the window can export, one row each.
 #include <array>
 
+#include "app/base/experiment_file.h"
 #include "app/platform/platform.h"
 #include "app/session/recorded.h"
 #include "app/ui/frame/commands.h"
@@ -76,6 +77,11 @@ std::string mesh(Ui& ui) {
   return obj_text(cloth.tears(), cloth.read().x, {.name = ui.session.preset().name, .t = cloth.time(), .fps = 0});
 }
 
+void experiment(Ui& ui, const std::filesystem::path& file) {
+  settle(ui.session);
+  save_experiment(experiment_of(*ui.session.simulation), file);
+}
+
 template <std::string (*text)(Ui&)>
 void text_file(Ui& ui, const std::filesystem::path& file) {
   write_atomically(file, text(ui));
@@ -129,6 +135,11 @@ std::vector<CommandRow> export_rows() {
                        std::string (*why_not)(const Ui&) = nullptr) -> CommandRow& {
     return rows.emplace_back(CommandRow{id, name, "", {}, "", also, nullptr, why_not, writes});
   };
+  add("save_experiment", "Save the experiment…", "record recording repeat replay share write tyglab history",
+      {"Save the experiment",
+       "The preset, everything done to it since it was opened, and checks of the positions. Opened, it repeats all of "
+       "that, step by step.",
+       "experiment.tyglab", experiment});
   add("export_forces", "Export forces as CSV…", "plot series",
       {"Export forces as CSV",
        "One row per sample in the plot: t and the magnitude of each force, units in the header.", "forces.csv",

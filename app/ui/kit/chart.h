@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "app/ui/kit/curve_plot.h"
 #include "app/ui/kit/overlay_layout.h"
 #include "app/ui/kit/theme.h"

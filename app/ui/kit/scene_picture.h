@@ -3,7 +3,7 @@
 
 #include <imgui.h>
 
-#include "app/render/image.h"
+#include "app/base/image.h"
 #include "app/ui/kit/fonts.h"
 #include "app/ui/kit/theme.h"
 

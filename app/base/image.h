@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/output_file.h"
@@ -41,6 +43,13 @@ Image decode_image(std::span<const unsigned char> bytes, const std::string& name
 /// A picture, then its halves down to one pixel, each pixel the mean of four: against shimmering where it is drawn
 /// small.
 std::vector<Image> halvings(Image image);
+
+// Bytes as zlib packs them.
+
+/// Throws std::bad_alloc.
+std::string packed(std::string_view bytes);
+/// What was packed, at most that many bytes; none where it is damaged or has more.
+std::optional<std::string> unpacked(std::string_view bytes, std::size_t most);
 
 // JPEG pictures, decoded by libjpeg-turbo.
 

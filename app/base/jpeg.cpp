@@ -1,4 +1,4 @@
-#include "app/render/image.h"
+#include "app/base/image.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/render/image.h"
+#include "app/base/image.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -190,6 +190,24 @@ std::filesystem::path write_png(const std::filesystem::path& file, const Image& 
     throw OutputError("The image " + file.string() + " could not be encoded. Is there enough memory?");
   }
   return write_output(file, bytes, reach);
+}
+
+std::string packed(std::string_view bytes) {
+  constexpr int quality = 8;
+  const EncoderMemory memory;
+  std::string copy(bytes);  // the encoder takes no constant ones
+  int size = 0;
+  const unsigned char* block =
+      stbi_zlib_compress(reinterpret_cast<unsigned char*>(copy.data()), int(copy.size()), &size, quality);
+  return {reinterpret_cast<const char*>(block), std::size_t(size)};
+}
+
+std::optional<std::string> unpacked(std::string_view bytes, std::size_t most) {
+  std::string text(most, 0);
+  const int size = stbi_zlib_decode_buffer(text.data(), int(most), bytes.data(), int(bytes.size()));
+  if (size < 0) return std::nullopt;
+  text.resize(std::size_t(size));
+  return text;
 }
 
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi) {

@@ -1,0 +1,89 @@
+#include "app/session/repetition.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "app/base/text.h"
+#include "app/session/motion.h"
+#include "app/session/session.h"
+#include "core/io/preset_io.h"
+#include "core/model/effect.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+std::string title(const Session& session) {
+  return "“" + session.document.label + "”";
+}
+
+/// Makes the event that is due, for the cloth and its copies.
+void make_event(Session& session) {
+  Playback& playback = session.repetition->playback;
+  const Event event = *playback.due(*session.simulation);
+  const Preset before = session.preset();
+  const auto edit = Playback::edit_of(*session.simulation, event);
+  playback.apply_next(*session.simulation);
+  if (edit) copies_apply(session, *edit);
+  if (const auto* mark = std::get_if<event::Mark>(&event)) session.messages.note("Mark: " + mark->words);
+  if (std::holds_alternative<edit::Restart>(event)) session.recorded.clear();
+  if (std::holds_alternative<event::Resume>(event) || std::holds_alternative<event::Load>(event))
+    copies_resume(session), session.recorded.go_on_from(session.simulation->time());
+  if (const EffectSet effects = changes(before, session.preset()); !effects.empty()) {
+    follow_up(session, before, effects);
+    if (!effects.within(beside_model)) session.rewind.note_change();
+  }
+}
+
+/// Of a recording that has come to its end.
+void finish(Session& session) {
+  const Repetition over = *std::move(session.repetition);
+  session.repetition.reset();
+  session.pacing.playing = false;
+  session.messages.note("The end of the experiment " + title(session) + ": " +
+                        comparison_in_words(over.playback, *over.experiment) +
+                        " The motion is paused; Space continues it.");
+}
+
+}  // namespace
+
+void begin_repetition(Session& session, std::shared_ptr<const Experiment> experiment) {
+  assert(experiment != nullptr);
+  session.repetition = Repetition{experiment, Playback(experiment->recording)};
+  session.messages.note("Repeats the experiment " + title(session) + ", " +
+                        time_number(experiment->seconds, session.preset().dt) +
+                        " s. It ends where you change or touch something.");
+}
+
+bool make_recorded_events(Session& session) {
+  assert(session.repetition && !session.background_steps.busy());
+  try {
+    while (session.repetition->playback.due(*session.simulation) != nullptr) make_event(session);
+  } catch (const PresetError& error) {
+    session.messages.error("The experiment " + title(session) + " cannot be repeated further: " + error.what());
+    session.repetition.reset();
+    return false;
+  }
+  if (!session.repetition->playback.over(*session.simulation)) return true;
+  finish(session);
+  return false;
+}
+
+int up_to_next_event(const Session& session, int steps) {
+  if (!session.repetition) return steps;
+  return int(std::min<std::int64_t>(steps, session.repetition->playback.steps_to_next(*session.simulation)));
+}
+
+void leave_repetition(Session& session) {
+  if (!session.repetition) return;
+  session.repetition.reset();
+  session.messages.note("The experiment " + title(session) + " is yours from t = " +
+                        time_number(clock_time(session), session.preset().dt) + " s on.");
+}
+
+std::string repetition_in_words(const Session& session) {
+  if (!session.repetition) return "";
+  return "repeating " + title(session) + " to step " + grouped(session.repetition->playback.recording().steps());
+}
+
+}  // namespace tyglab
