@@ -16,6 +16,8 @@ class Playback {
   explicit Playback(Recording recording) : recording_(std::move(recording)), events_(recording_.events()) {}
 
   const Recording& recording() const { return recording_; }
+  /// Goes on after what a simulation has in its own recording, which is the beginning of this one.
+  void begin_at(const Simulation& simulation) { next_ = simulation.past().size(); }
   /// Whether all has been made.
   bool over(const Simulation& simulation) const {
     return next_ == events_.size() && simulation.past().steps() >= recording_.steps();

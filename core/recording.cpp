@@ -14,6 +14,7 @@ Recording::Node::~Node() {
 void Recording::add(Event event) {
   assert(!last_ || last_->step <= steps_);
   last_ = std::make_shared<Node>(steps_, std::move(event), last_);
+  ++size_;
 }
 
 std::vector<Recording::Entry> Recording::events() const {

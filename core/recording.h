@@ -83,6 +83,8 @@ class Recording {
     std::int64_t step;
     const Event* event;  ///< lives as long as the recording
   };
+  /// How many events it has.
+  std::size_t size() const { return size_; }
   /// All events, the oldest first.
   std::vector<Entry> events() const;
 
@@ -98,6 +100,7 @@ class Recording {
   std::shared_ptr<const Preset> start_;
   std::shared_ptr<Node> last_;
   std::int64_t steps_ = 0;
+  std::size_t size_ = 0;
   bool repeats_ = true;
 };
 

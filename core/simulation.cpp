@@ -726,7 +726,8 @@ Snapshot Simulation::snapshot() {
           effective_preset_.W,
           effective_preset_.u,
           moving_pins_,
-          past_};
+          past_,
+          held_.particle < 0 && !pushed_until_};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -788,6 +789,12 @@ void Simulation::restore(const Snapshot& then) {
   ++revision_, ++tear_revision_;
   past_ = std::move(past);
   if (watch_) enable_ledger(true);
+}
+
+void Simulation::return_to(const Snapshot& then) {
+  assert(then.held && then.alone && changes(then.of, preset_).within(motionless));
+  restore(then);
+  past_ = then.past;
 }
 
 void Simulation::load(const State& state) {

@@ -53,7 +53,8 @@ struct Snapshot {
   glm::dvec3 W{0};                           ///< the wind of the last step, N: that of the next begins with a new gust
   glm::dvec3 u{0};                           ///< likewise, m/s
   MovingPins moving_pins{};
-  Recording past;  ///< what led there
+  Recording past;      ///< what led there
+  bool alone = false;  ///< no hand held the cloth, and no body was pushed
   std::size_t bytes() const {
     return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0) + moving_pins.bytes();
   }
@@ -150,12 +151,21 @@ class Simulation {
   /// Returns to a snapshot that fits, with the present constants and pins. The hand releases, and a divergence is
   /// cleared.
   void restore(const Snapshot& then);
+  /// The same with the constants of that moment: all is again as it was then, its recording included. The snapshot has
+  /// what its method held, and was `alone`.
+  void return_to(const Snapshot& then);
 
   /// Puts positions and full-step velocities in place of the present ones; time, tears and constants stay.
   void load(const State& state);
 
   /// What has happened since the first preset, restarts included.
   const Recording& past() const { return past_; }
+  /// The cloth stands at the start of these constants, and differs from them in its picture at most: its recording
+  /// begins with them.
+  void begin_recording(const Preset& start) {
+    assert(steps_ == 0);
+    past_ = Recording(start);
+  }
   /// Adds a user's word to it.
   void mark(std::string words) { past_.add(event::Mark{std::move(words)}); }
   /// Continues the recording of the cloth that this one, built from its constants, replaces: as if they had been

@@ -28,7 +28,7 @@ void go_on_from_here(Session& session) {
 
 /// Brings a state back that an undo or a redo is about.
 void bring_back(Session& session, const Snapshot& then) {
-  leave_repetition(session);
+  leave_line(session, then.past.steps());
   then.t <= session.simulation->time() ? session.rewind.forget_after(then.t) : session.rewind.clear();
   session.simulation->restore(then);
   go_on_from_here(session);
@@ -44,7 +44,7 @@ void restart(Session& session) {
 
 void go_back(Session& session, const Snapshot& then) {
   assert(!session.background_steps.busy());
-  leave_repetition(session);
+  leave_line(session, then.past.steps());
   session.rewind.go_back(*session.simulation, then);
   session.history.go_back(session.simulation->time());
   go_on_from_here(session);
@@ -156,7 +156,7 @@ void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int step
 void single_step(Session& session, const std::optional<glm::dvec3>& hand) {
   session.pacing.playing = false;
   if (session.rebuild.holds_present() || session.background_steps.busy() || awaits_prediction(session)) return;
-  if (session.repetition && !make_recorded_events(session)) return;
+  if (session.repetition && !make_recorded_events(session) && session.repetition) return;
   move_hand(session, hand, 1);
   sample_start(session);
   if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, 1);

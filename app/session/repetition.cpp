@@ -39,6 +39,7 @@ void make_event(Session& session) {
 void finish(Session& session) {
   const Repetition over = *std::move(session.repetition);
   session.repetition.reset();
+  if (over.experiment == nullptr) return;  // its motion goes on
   session.pacing.playing = false;
   session.messages.note("The end of the experiment " + title(session) + ": " +
                         comparison_in_words(over.playback, *over.experiment) +
@@ -66,7 +67,7 @@ bool make_recorded_events(Session& session) {
   }
   if (!session.repetition->playback.over(*session.simulation)) return true;
   finish(session);
-  return false;
+  return session.pacing.playing;
 }
 
 int up_to_next_event(const Session& session, int steps) {
@@ -76,13 +77,23 @@ int up_to_next_event(const Session& session, int steps) {
 
 void leave_repetition(Session& session) {
   if (!session.repetition) return;
+  const Repetition left = *std::move(session.repetition);
   session.repetition.reset();
-  session.messages.note("The experiment " + title(session) + " is yours from t = " +
+  session.timeline.leave(left.playback.recording(), session.simulation->past().steps());
+  const bool kept = left.playback.recording().steps() - session.simulation->past().steps() >= Timeline::shortest_branch;
+  if (left.experiment == nullptr && !kept) return;
+  if (left.experiment == nullptr)
+    session.messages.note("From here the motion takes another course. The former one is kept: its mark on the timeline "
+                          "leads back to it.");
+  else
+    session.messages.note("The experiment " + title(session) + " is yours from t = " +
                         time_number(clock_time(session), session.preset().dt) + " s on.");
 }
 
 std::string repetition_in_words(const Session& session) {
   if (!session.repetition) return "";
+  if (session.repetition->experiment == nullptr)
+    return "repeating to step " + grouped(session.repetition->playback.recording().steps());
   return "repeating " + title(session) + " to step " + grouped(session.repetition->playback.recording().steps());
 }
 

@@ -13,7 +13,7 @@ namespace tyglab {
 struct Session;
 
 struct Repetition {
-  std::shared_ptr<const Experiment> experiment;
+  std::shared_ptr<const Experiment> experiment;  ///< that was opened; null: of what was done here (timeline.h)
   Playback playback;
 };
 

@@ -126,7 +126,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
     return;
   }
   warn_of_precision();
-  rewind.look(*simulation);
+  rewind.look(*simulation), timeline.look(*simulation);
   const int due = up_to_stop(*this, pacing.due(real_seconds, dt));
   move_hand(*this, input.hand, due);
   if (input.body && due > 0)
@@ -150,7 +150,7 @@ void Session::make_steps(int due, const SessionInput& input) {
   double stepping_s = 0;
   if (due > 0) sample_start(*this);
   while (made < due && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
-    if ((repetition && !make_recorded_events(*this) && !pacing.playing) || simulation->divergence()) break;
+    if ((repetition && !make_recorded_events(*this)) || simulation->divergence()) break;
     const double cost = pacing.step_cost_s();
     const int to_sample = std::max(samples - int(steps_made - recorded.sampled), 1);
     const int piece = cost > 0 && !input.after_steps

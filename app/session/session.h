@@ -23,6 +23,7 @@
 #include "app/session/requests.h"
 #include "app/session/rewind.h"
 #include "app/session/sleep.h"
+#include "app/session/timeline.h"
 #include "app/studies/studies.h"
 #include "core/edit.h"
 #include "core/energy/auto_step.h"
@@ -77,6 +78,7 @@ struct Session {
   LabState labs;
   Messages messages;
   FrameCosts costs;
+  Timeline timeline;
   std::optional<Repetition> repetition;  ///< of an experiment, while it goes on
   std::optional<Replay> replay;     ///< of the last steps before a divergence, while it goes on
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's

@@ -36,6 +36,11 @@ void rewind_a_second(Ui& ui) {
   rewind_and_say_what_stays(ui.session);
 }
 
+template <int milliseconds, int steps>
+void along_timeline(Ui& ui) {
+  go_by(ui.session, milliseconds / 1000.0, steps);
+}
+
 std::string no_replay(const Ui& ui) {
   return nothing_to_replay(ui.session);
 }
@@ -83,6 +88,34 @@ std::vector<CommandRow> motion_rows() {
            "back",
            rewind_a_second,
            nothing_earlier},
+          {"timeline_step_back",
+           "Timeline: a step back",
+           "Shift+←",
+           {{GLFW_KEY_LEFT, GLFW_MOD_SHIFT, true}},
+           "goes a step back on the timeline",
+           "scrub earlier record",
+           along_timeline<0, -1>},
+          {"timeline_step",
+           "Timeline: a step on",
+           "Shift+→",
+           {{GLFW_KEY_RIGHT, GLFW_MOD_SHIFT, true}},
+           "goes a recorded step on",
+           "scrub later record",
+           along_timeline<0, 1>},
+          {"timeline_back",
+           "Timeline: a tenth of a second back",
+           "Ctrl+←",
+           {{GLFW_KEY_LEFT, ctrl, true}},
+           "goes a tenth of a second back on the timeline",
+           "scrub earlier record",
+           along_timeline<-100, 0>},
+          {"timeline_on",
+           "Timeline: a tenth of a second on",
+           "Ctrl+→",
+           {{GLFW_KEY_RIGHT, ctrl, true}},
+           "goes a recorded tenth of a second on",
+           "scrub later record",
+           along_timeline<100, 0>},
           {"replay",
            "Replay the last 50 steps slowly",
            "",

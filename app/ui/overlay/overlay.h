@@ -50,6 +50,8 @@ glm::vec2 pause_mark_size(const Ui& ui);
 void hidden_panels_mark(Ui& ui, ImDrawList& draw);
 /// How far the film is that is being exported; a click ends it.
 void film_mark(Ui& ui, ImDrawList& draw);
+/// What has been recorded, to go back and forth in.
+void timeline_strip(Ui& ui, ImDrawList& draw);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
 /// At the foot of each picture, or overlaid one above the other: which cloth it is, and whether it has diverged; a

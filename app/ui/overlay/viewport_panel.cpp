@@ -135,6 +135,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   const bool covered = ui.banner_over_views || (ui.copy_details && ui.copy_details->over_views);
   if (!bare && has_buttons(ui, region) && !covered) view_buttons(ui, region);
   if (!bare && ui.presenting && ui.panels) scene_name(ui, draw, row);
+  if (!bare && ui.panels) timeline_strip(ui, draw);
   cloth_names(ui, draw);
   if (!bare) {
     arrow_scales(ui, draw);
