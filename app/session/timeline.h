@@ -48,7 +48,10 @@ class Timeline {
   const std::vector<Branch>& branches() const { return branches_; }
   /// Takes a branch out, and forgets the snapshots beyond it.
   Branch take(std::size_t branch);
-  void clear() { *this = Timeline(); }
+  void clear() {
+    kept_.clear(), branches_.clear(), marks_.clear();
+    bytes_ = marked_ = marked_branches_ = 0;
+  }
   std::size_t bytes() const { return bytes_; }
 
   /// What stands on the timeline of a line, worked out anew a few times a second at most.

@@ -269,7 +269,7 @@ TEST_CASE("in a low window the details of a copy have the view buttons' place wh
 }
 
 TEST_CASE("the names of overlaid cloths stand above them where the picture is narrow") {
-  test::NullUi window({.size = {1280, 800}, .settings = [](Settings& settings) { settings.theme = "projector"; }});
+  test::NullUi window({.size = {1280, 840}, .settings = [](Settings& settings) { settings.theme = "projector"; }});
   window.pause();
   window.click("plots.Copies");
   window.add_copy("Euler");

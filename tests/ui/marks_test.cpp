@@ -189,8 +189,8 @@ TEST_CASE("a message stands on the status line, outside the picture, and a long 
   window.frames(3);
   const Box high = window.control("message.dismiss");
   CHECK(high.hi.y == 720);
-  CHECK(high.lo.y < window.ui.viewport.box.hi.y);
-  CHECK(high.lo.y > window.ui.viewport.box.hi.y - 40);
+  CHECK(high.lo.y < brief.lo.y);
+  CHECK(high.lo.y > brief.lo.y - 40);
   for (const auto& mark : window.ui.placing.marks())
     if (mark.name != "message") CHECK_FALSE(overlap(mark.box, high));
 }

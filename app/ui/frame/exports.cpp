@@ -135,7 +135,7 @@ std::vector<CommandRow> export_rows() {
                        std::string (*why_not)(const Ui&) = nullptr) -> CommandRow& {
     return rows.emplace_back(CommandRow{id, name, "", {}, "", also, nullptr, why_not, writes});
   };
-  add("save_experiment", "Save the experiment…", "record recording repeat replay share write tyglab history",
+  add("save_experiment", "Save the experiment…", "repeat replay share write tyglab history",
       {"Save the experiment",
        "The preset, everything done to it since it was opened, and checks of the positions. Opened, it repeats all of "
        "that, step by step.",

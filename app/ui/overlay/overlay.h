@@ -50,8 +50,10 @@ glm::vec2 pause_mark_size(const Ui& ui);
 void hidden_panels_mark(Ui& ui, ImDrawList& draw);
 /// How far the film is that is being exported; a click ends it.
 void film_mark(Ui& ui, ImDrawList& draw);
-/// What has been recorded, to go back and forth in.
-void timeline_strip(Ui& ui, ImDrawList& draw);
+/// What has been recorded, to go back and forth in, below the pictures.
+void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box);
+/// Its height in a region of that height, px; 0 where there is none.
+float timeline_height(const Ui& ui, float region);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
 /// At the foot of each picture, or overlaid one above the other: which cloth it is, and whether it has diverged; a

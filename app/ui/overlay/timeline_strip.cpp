@@ -76,16 +76,17 @@ void draw_strip(Ui& ui, ImDrawList& draw, const StepScale& scale, float y, const
 
 }  // namespace
 
-void timeline_strip(Ui& ui, ImDrawList& draw) {
+float timeline_height(const Ui& ui, float region) {
+  constexpr float height = 26, least_region = 300;  // px at scale 1
+  const bool there = ui.panels && !ui.presenting && ui.session.requested_preset().kind == Kind::cloth;
+  return there && region >= ui.theme.px(least_region) ? ui.theme.px(height) : 0;
+}
+
+void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box) {
   Session& session = ui.session;
   const std::int64_t steps = present_line(session).steps();
-  if (steps == 0 || session.preset().kind == Kind::one_weight) return;
-  const float margin = ui.theme.px(16), height = ui.theme.px(24);
-  const Box& viewport = ui.viewport.box;
-  const Box box{{viewport.lo.x + margin, viewport.hi.y - height}, {viewport.hi.x - margin, viewport.hi.y}};
-  if (box.hi.x - box.lo.x < ui.theme.px(120)) return;
-  ui.placing.take("timeline", box);
-  const float pad = ui.theme.px(8);
+  if (steps == 0) return;
+  const float pad = ui.theme.px(16);
   const StepScale scale{box.lo.x + pad, box.hi.x - pad, double(steps)};
   const std::vector<TimelineMark>& marks = session.timeline.marks(present_line(session), session.now);
   cover_viewport(ui, vec(box.lo), vec(box.hi));

@@ -135,7 +135,6 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   const bool covered = ui.banner_over_views || (ui.copy_details && ui.copy_details->over_views);
   if (!bare && has_buttons(ui, region) && !covered) view_buttons(ui, region);
   if (!bare && ui.presenting && ui.panels) scene_name(ui, draw, row);
-  if (!bare && ui.panels) timeline_strip(ui, draw);
   cloth_names(ui, draw);
   if (!bare) {
     arrow_scales(ui, draw);
@@ -164,7 +163,10 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
 
 }  // namespace
 
-void viewport_panel(Ui& ui, const Region& region) {
+void viewport_panel(Ui& ui, const Region& whole) {
+  const float timeline = timeline_height(ui, whole.size.y);
+  Region region = whole;
+  region.size.y -= timeline;
   const glm::vec2 size(region.size.x, region.size.y);
   const float banner = banner_strip(ui, size), details = copy_details_strip(ui, {size.x, size.y - banner}),
               foot = std::max(region.at.y + size.y - banner - details, region.at.y + 1);
@@ -189,10 +191,13 @@ void viewport_panel(Ui& ui, const Region& region) {
   ui.viewport.filled = ui.presenting ? presented : usual;
   ui.marks_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   if (!ui.bare()) ui.viewport.covers.clear();  // what is not drawn for an image is on the screen all the same
-  if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
+  if (!begin_region("viewport", whole, ui.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   pictures(ui, draw);
   marks(ui, draw, region);
+  if (timeline > 0 && !ui.bare())
+    timeline_strip(ui, draw, {{region.at.x, region.at.y + region.size.y},
+                              {region.at.x + region.size.x, whole.at.y + whole.size.y}});
   end_region();
 }
 
