@@ -41,10 +41,10 @@ class Playback {
 
   /// How the positions compare.
   struct Comparison {
-    std::int64_t compared = 0, equal_until = 0;     ///< the last step at which they were equal
-    std::optional<std::int64_t> differs_at = {};    ///< and the first at which they were not
-    std::int64_t looked_at = 0;                     ///< the last step at which distances were measured
-    double apart = 0;                               ///< the largest of them, m
+    std::int64_t compared = 0, equal_until = 0;   ///< the last step at which they were equal
+    std::optional<std::int64_t> differs_at = {};  ///< and the first at which they were not
+    std::int64_t looked_at = 0;                   ///< the last step at which distances were measured
+    double apart = 0;                             ///< the largest of them, m
   };
   const Comparison& comparison() const { return comparison_; }
 

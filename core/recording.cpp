@@ -5,7 +5,8 @@
 
 namespace tyglab {
 
-/// One after another: a chain that is given back link by link from within itself would take as much stack as it is long.
+/// One after another: a chain that is given back link by link from within itself would take as much stack as it is
+/// long.
 Recording::Node::~Node() {
   std::shared_ptr<Node> next = std::move(before);
   while (next && next.use_count() == 1) next = std::exchange(next->before, nullptr);

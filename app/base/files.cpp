@@ -7,9 +7,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "app/base/experiment_file.h"
 #include "app/base/files.h"
 #include "app/base/settings.h"
-#include "app/base/experiment_file.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"

@@ -73,8 +73,8 @@ PresetSource find_preset(const std::string& name_or_file, const std::vector<std:
 /// Whether there is a shipped preset or a file of that name.
 bool is_preset(const std::string& name_or_file);
 
-/// Reads a preset to be shown, or that with which an experiment begins (experiment_file.h): its texture is a shipped name, or the path of an image in the preset's folder. Throws
-/// PresetError (load_preset).
+/// Reads a preset to be shown, or that with which an experiment begins (experiment_file.h): its texture is a shipped
+/// name, or the path of an image in the preset's folder. Throws PresetError (load_preset).
 Preset read_preset(const std::filesystem::path& file);
 /// A texture that the user chose, in the form of a preset: a shipped name, or the absolute path of any image.
 std::string chosen_texture(const std::string& name_or_file);

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "app/base/files.h"
+#include "app/base/image.h"
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
 #include "app/render/cloth_renderer.h"
-#include "app/base/image.h"
 #include "app/ui/kit/color_legend.h"
 #include "app/ui/kit/scene_picture.h"
 #include "core/io/terminal.h"

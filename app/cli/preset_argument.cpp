@@ -8,9 +8,9 @@
 
 #include "app/base/experiment_file.h"
 #include "app/base/files.h"
+#include "app/base/image.h"
 #include "app/base/text.h"
 #include "app/cli/command_line.h"
-#include "app/base/image.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
@@ -87,10 +87,11 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   for (const CLI::App* each = &command; each->get_parent() != nullptr; each = each->get_parent())
     command_name = each->get_name() + (command_name.empty() ? "" : " ") + command_name;
   command
-      .add_option("PRESET", preset,
-                  "A shipped preset's name (`tyglab presets` lists them), a preset file, an experiment (F.tyglab), or a\n"
-                  "link that the page or `Copy link` made: 'https://…" +
-                      std::string(example_link) + "' or its end from # on")
+      .add_option(
+          "PRESET", preset,
+          "A shipped preset's name (`tyglab presets` lists them), a preset file, an experiment (F.tyglab), or a\n"
+          "link that the page or `Copy link` made: 'https://…" +
+              std::string(example_link) + "' or its end from # on")
       ->required(required)
       ->check(not_empty());
   command

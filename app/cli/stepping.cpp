@@ -83,8 +83,7 @@ void end_interrupted(const std::string& what_is_missing) {
       exit_interrupted);
 }
 
-Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt,
-                 Playback* playback)
+Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt, Playback* playback)
     : simulation_(simulation),
       steps_(steps),
       end_time_(double(steps) * simulation.preset().dt),
@@ -120,7 +119,8 @@ void Stepper::advance_portion(std::int64_t step) {
   using Clock = std::chrono::steady_clock;
   constexpr std::int64_t between_looks = 64;
   auto portion = std::min({portion_, step - made(), auto_ ? between_looks : portion_});
-  if (playback_ != nullptr && !playback_->over(simulation_)) portion = std::min(portion, playback_->steps_to_next(simulation_));
+  if (playback_ != nullptr && !playback_->over(simulation_))
+    portion = std::min(portion, playback_->steps_to_next(simulation_));
   const auto start = Clock::now();
   simulation_.advance(static_cast<int>(portion));
   const double took = std::chrono::duration<double>(Clock::now() - start).count();

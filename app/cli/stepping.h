@@ -87,7 +87,9 @@ class Stepper {
 
  private:
   void advance_portion(std::int64_t step);
-  bool ended() const { return simulation_.divergence() && !(playback_ != nullptr && playback_->due(simulation_) != nullptr); }
+  bool ended() const {
+    return simulation_.divergence() && !(playback_ != nullptr && playback_->due(simulation_) != nullptr);
+  }
   void make_events();
   void look_at_ledger();
   void look_at_precision();

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "app/base/image.h"
 #include "app/base/input.h"
 #include "app/base/settings.h"
-#include "app/base/image.h"
 #include "core/engines/opencl/opencl_devices.h"
 
 // The address of the page with the link to the experiment. Other platforms have none.

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "app/base/frame_costs.h"
+#include "app/base/image.h"
 #include "app/base/vertex_path.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_texture.h"
-#include "app/base/image.h"
 #include "core/cloth/lattice.h"
 #include "core/simulation.h"
 

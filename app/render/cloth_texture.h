@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/render/gl_objects.h"
 #include "app/base/image.h"
+#include "app/render/gl_objects.h"
 
 namespace tyglab {
 

@@ -4,9 +4,9 @@
 #include <glm/mat4x4.hpp>
 #include <optional>
 
+#include "app/base/image.h"
 #include "app/render/camera.h"
 #include "app/render/gl_objects.h"
-#include "app/base/image.h"
 
 namespace tyglab {
 

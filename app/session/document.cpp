@@ -35,7 +35,8 @@ void begin_document(Session& session, Document document) {
   if (session.show_texture)
     if (const auto problem = session.show_texture(session.preset().texture)) session.messages.error(*problem);
   session.repetition.reset();
-  session.history.clear(), session.rewind.clear(), session.timeline.clear(), session.curves.clear(), session.auto_dt.reset();
+  session.history.clear(), session.rewind.clear(), session.timeline.clear(), session.curves.clear(),
+      session.auto_dt.reset();
   session.picked = first_pick(session);
   session.recorded.clear();
   session.pacing.forget_cost(), session.pacing.restart_measure();

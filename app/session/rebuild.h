@@ -34,7 +34,7 @@ struct Session;
 struct Document {
   Preset saved;
   std::string label;
-  std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+  std::filesystem::path file;                         ///< the user's file, empty for a shipped preset
   std::shared_ptr<const Experiment> experiment = {};  ///< to be repeated; null: a preset was opened
 };
 

@@ -83,11 +83,12 @@ void leave_repetition(Session& session) {
   const bool kept = left.playback.recording().steps() - session.simulation->past().steps() >= Timeline::shortest_branch;
   if (left.experiment == nullptr && !kept) return;
   if (left.experiment == nullptr)
-    session.messages.note("From here the motion takes another course. The former one is kept: its mark on the timeline "
-                          "leads back to it.");
+    session.messages.note(
+        "From here the motion takes another course. The former one is kept: its mark on the timeline "
+        "leads back to it.");
   else
-    session.messages.note("The experiment " + title(session) + " is yours from t = " +
-                        time_number(clock_time(session), session.preset().dt) + " s on.");
+    session.messages.note("The experiment " + title(session) +
+                          " is yours from t = " + time_number(clock_time(session), session.preset().dt) + " s on.");
 }
 
 std::string repetition_in_words(const Session& session) {

@@ -80,8 +80,8 @@ struct Session {
   FrameCosts costs;
   Timeline timeline;
   std::optional<Repetition> repetition;  ///< of an experiment, while it goes on
-  std::optional<Replay> replay;     ///< of the last steps before a divergence, while it goes on
-  std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
+  std::optional<Replay> replay;          ///< of the last steps before a divergence, while it goes on
+  std::optional<AutoStep> auto_dt;       ///< dt follows the constants and the ledger; none: it is the user's
   std::optional<Pins::Site> picked;
   std::vector<Request> requests;
   std::optional<Question> question;      ///< to be put to the user

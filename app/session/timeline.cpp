@@ -151,17 +151,23 @@ std::string words_of(const Event& event) {
   if (const auto* change = std::get_if<event::Change>(&event)) {
     const std::size_t count = change->settings.size();
     if (count == 0) return "started again";
-    return count == 1 ? change->settings.front() : change->settings.front() + " and " + std::to_string(count - 1) + " more";
+    return count == 1 ? change->settings.front()
+                      : change->settings.front() + " and " + std::to_string(count - 1) + " more";
   }
   if (const auto* grab = std::get_if<edit::Grab>(&event)) return "grabbed" + at(grab->i, grab->j);
   if (const auto* pin = std::get_if<edit::Pin>(&event)) return (pin->pinned ? "pinned" : "freed") + at(pin->i, pin->j);
   if (const auto* mark = std::get_if<event::Mark>(&event)) return mark->words;
   switch (kind_of(event)) {
-    case TimelineMark::Kind::cut: return "cut";
-    case TimelineMark::Kind::body: return "moved a body";
-    case TimelineMark::Kind::restart: return "restarted";
-    case TimelineMark::Kind::diverged: return "diverged";
-    default: return "went back";
+    case TimelineMark::Kind::cut:
+      return "cut";
+    case TimelineMark::Kind::body:
+      return "moved a body";
+    case TimelineMark::Kind::restart:
+      return "restarted";
+    case TimelineMark::Kind::diverged:
+      return "diverged";
+    default:
+      return "went back";
   }
 }
 
@@ -193,7 +199,7 @@ void go_to_branch(Session& session, std::size_t branch) {
 }
 
 const std::vector<TimelineMark>& Timeline::marks(const Recording& line, double now) {
-  constexpr double between = 0.25;            // s
+  constexpr double between = 0.25;           // s
   constexpr std::int64_t one_gesture = 500;  // steps
   const bool other = line.size() != marked_ || branches_.size() != marked_branches_;
   if (!other || (line.size() > marked_ && branches_.size() == marked_branches_ && now < marked_at_ + between))
@@ -205,8 +211,8 @@ const std::vector<TimelineMark>& Timeline::marks(const Recording& line, double n
     if (!is_shown(*event)) continue;
     const TimelineMark::Kind kind = kind_of(*event);
     // A stroke or a drag is one mark.
-    const bool again = !marks_.empty() && marks_.back().kind == kind && step - last < one_gesture &&
-                       kind != TimelineMark::Kind::word;
+    const bool again =
+        !marks_.empty() && marks_.back().kind == kind && step - last < one_gesture && kind != TimelineMark::Kind::word;
     if (!again) marks_.push_back({kind, step, words_of(*event)});
     last = step;
   }

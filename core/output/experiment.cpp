@@ -108,37 +108,32 @@ class EventText {
 
 std::string text_of(const Recording::Entry& entry) {
   EventText text(entry.step);
-  std::visit(Overloaded{[&](const event::Change& e) { text.word("set").words(e.settings); },
-                        [&](const edit::Restart&) { text.word("restart"); },
-                        [&](const edit::Grab& e) { text.word("grab").number(e.i).number(e.j); },
-                        [&](const edit::MoveHand& e) { text.word("hand").point(e.to).number(e.steps); },
-                        [&](const edit::Release&) { text.word("release"); },
-                        [&](const edit::Cut& e) {
-                          text.word("cut");
-                          for (const Pins::Site& site : e.sites) text.number(site.i).number(site.j);
-                        },
-                        [&](const edit::CutSprings& e) {
-                          text.word("cut springs");
-                          for (const SpringSite& one : e.springs) text.number(one.direction).number(one.i).number(one.j);
-                        },
-                        [&](const edit::Pin& e) {
-                          text.word("pin").number(e.i).number(e.j).add(e.pinned ? "true" : "false");
-                        },
-                        [&](const edit::MoveBody& e) {
-                          text.word("body").number(e.index).point(e.c).number(e.steps);
-                        },
-                        [&](const event::Resume& e) {
-                          text.word("resume").add(e.held ? "true" : "false").words(e.settings);
-                        },
-                        [&](const event::Load& e) { text.word("state").word(in_base64(bytes_of(*e.state))); },
-                        [&](const event::Hash& e) { text.word("hash").word(in_hexadecimal(e.value)); },
-                        [&](const event::Look& e) {
-                          text.word("look");
-                          for (const glm::dvec3& x : e.x) text.point(x);
-                        },
-                        [&](const event::Diverge&) { text.word("diverged"); },
-                        [&](const event::Mark& e) { text.word("mark").word(e.words); }},
-             *entry.event);
+  std::visit(
+      Overloaded{[&](const event::Change& e) { text.word("set").words(e.settings); },
+                 [&](const edit::Restart&) { text.word("restart"); },
+                 [&](const edit::Grab& e) { text.word("grab").number(e.i).number(e.j); },
+                 [&](const edit::MoveHand& e) { text.word("hand").point(e.to).number(e.steps); },
+                 [&](const edit::Release&) { text.word("release"); },
+                 [&](const edit::Cut& e) {
+                   text.word("cut");
+                   for (const Pins::Site& site : e.sites) text.number(site.i).number(site.j);
+                 },
+                 [&](const edit::CutSprings& e) {
+                   text.word("cut springs");
+                   for (const SpringSite& one : e.springs) text.number(one.direction).number(one.i).number(one.j);
+                 },
+                 [&](const edit::Pin& e) { text.word("pin").number(e.i).number(e.j).add(e.pinned ? "true" : "false"); },
+                 [&](const edit::MoveBody& e) { text.word("body").number(e.index).point(e.c).number(e.steps); },
+                 [&](const event::Resume& e) { text.word("resume").add(e.held ? "true" : "false").words(e.settings); },
+                 [&](const event::Load& e) { text.word("state").word(in_base64(bytes_of(*e.state))); },
+                 [&](const event::Hash& e) { text.word("hash").word(in_hexadecimal(e.value)); },
+                 [&](const event::Look& e) {
+                   text.word("look");
+                   for (const glm::dvec3& x : e.x) text.point(x);
+                 },
+                 [&](const event::Diverge&) { text.word("diverged"); },
+                 [&](const event::Mark& e) { text.word("mark").word(e.words); }},
+      *entry.event);
   return text.end();
 }
 
@@ -356,9 +351,8 @@ Experiment experiment_of(const Simulation& simulation) {
   if (!simulation.divergence()) recording.add(event::Hash{simulation.hash()}), recording.add(simulation.look());
   if (!past.repeats()) recording.give_up_repeating();
   const Preset& now = simulation.preset();
-  return {std::move(recording), TYGLAB_VERSION,
-          simulation.engine().name() + ", " + std::string(name_of(now.precision)), constants.seconds(),
-          constants.largest()};
+  return {std::move(recording), TYGLAB_VERSION, simulation.engine().name() + ", " + std::string(name_of(now.precision)),
+          constants.seconds(), constants.largest()};
 }
 
 std::string experiment_text(const Experiment& experiment) {
@@ -386,8 +380,8 @@ Experiment parse_experiment(std::string_view text, std::string_view source) {
   if (version > experiment_version)
     fail("was made by a newer version of Tyglab (format " + shortest_number(version) + "); this one reads format " +
          std::to_string(experiment_version));
-  constexpr std::array<std::string_view, 7> known{"tyglab_experiment", "version", "made_with", "repeats",
-                                                  "steps",             "preset",  "events"};
+  constexpr std::array<std::string_view, 7> known{
+      "tyglab_experiment", "version", "made_with", "repeats", "steps", "preset", "events"};
   for (const JsonNode::Member& one : root.members)
     if (std::find(known.begin(), known.end(), one.key) == known.end())
       fail("line " + std::to_string(one.value.line) + ": unknown key \"" + printable(excerpt(one.key)) + "\"");
@@ -425,11 +419,10 @@ std::string comparison_in_words(const Playback& playback, const Experiment& expe
   const Playback::Comparison& found = playback.comparison();
   if (!playback.recording().repeats())
     return "steps of the recording ended after a limit of real time, so the motion does not repeat exactly.";
-  const std::string apart =
-      found.looked_at == 0
-          ? ""
-          : "At step " + grouped(found.looked_at) + " the corners, the edges' middles and the middle are at most " +
-                printed("%.2g", found.apart) + " m away from where they were.";
+  const std::string apart = found.looked_at == 0 ? ""
+                                                 : "At step " + grouped(found.looked_at) +
+                                                       " the corners, the edges' middles and the middle are at most " +
+                                                       printed("%.2g", found.apart) + " m away from where they were.";
   if (found.compared == 0) return "the recording has no checks of the positions, so nothing was compared.";
   if (!found.differs_at)
     return "the positions equal the recorded ones to the last bit, in " + grouped(found.compared) +

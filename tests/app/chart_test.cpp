@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/platform/platform.h"
 #include "app/base/image.h"
+#include "app/platform/platform.h"
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/scene_picture.h"
 

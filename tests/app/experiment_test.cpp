@@ -42,22 +42,36 @@ void do_something(Simulation& cloth, test::Random& random, Snapshot& kept) {
   const int i = random.below(cloth.preset().rows), j = random.below(cloth.preset().columns);
   Preset next = cloth.preset();
   switch (random.below(14)) {
-    case 0: return cloth.apply(edit::Grab{i, j});
+    case 0:
+      return cloth.apply(edit::Grab{i, j});
     case 1:
     case 2:
       return cloth.apply(edit::MoveHand{cloth.position(i, j) + glm::dvec3(random.uniform(-0.02, 0.02)), 5});
-    case 3: return cloth.apply(edit::Release{});
-    case 4: return cloth.apply(edit::Cut{{{i, j}, {i, (j + 1) % next.columns}}});
-    case 5: return cloth.apply(edit::CutSprings{{{0, i, j}, {1, i, j}}});
-    case 6: return cloth.apply(edit::Pin{i, j, random.below(2) == 0});
-    case 7: return cloth.apply(edit::MoveBody{0, {random.uniform(-0.1, 0.1), 0.4, 0}, random.below(2) * 7});
-    case 8: kept = cloth.snapshot(); return;
+    case 3:
+      return cloth.apply(edit::Release{});
+    case 4:
+      return cloth.apply(edit::Cut{{{i, j}, {i, (j + 1) % next.columns}}});
+    case 5:
+      return cloth.apply(edit::CutSprings{{{0, i, j}, {1, i, j}}});
+    case 6:
+      return cloth.apply(edit::Pin{i, j, random.below(2) == 0});
+    case 7:
+      return cloth.apply(edit::MoveBody{0, {random.uniform(-0.1, 0.1), 0.4, 0}, random.below(2) * 7});
+    case 8:
+      kept = cloth.snapshot();
+      return;
     case 9:
       if (cloth.fits(kept)) cloth.restore(kept);
       return;
-    case 10: next.k_s = random.uniform(10, 60); break;
-    case 11: next.dt = random.uniform(3e-4, 9e-4); break;
-    case 12: next.W = {random.uniform(-1e-4, 1e-4), 0, 0}, next.gust = 0.5; break;
+    case 10:
+      next.k_s = random.uniform(10, 60);
+      break;
+    case 11:
+      next.dt = random.uniform(3e-4, 9e-4);
+      break;
+    case 12:
+      next.W = {random.uniform(-1e-4, 1e-4), 0, 0}, next.gust = 0.5;
+      break;
     default:
       if (random.below(3) == 0) return cloth.apply(edit::Restart{});
       next.precision = next.precision == Precision::double_ ? Precision::float_ : Precision::double_;
@@ -104,7 +118,8 @@ TEST_CASE("whatever was done is repeated to the last bit, by every method, preci
 
 TEST_CASE("a repetition can itself be saved, continued, and repeated") {
   Simulation cloth(test::cloth(8, 8));
-  cloth.advance(100), cloth.apply(edit::Grab{7, 3}), cloth.apply(edit::MoveHand{{0.1, 0.9, 0.2}, 50}), cloth.advance(80);
+  cloth.advance(100), cloth.apply(edit::Grab{7, 3}), cloth.apply(edit::MoveHand{{0.1, 0.9, 0.2}, 50}),
+      cloth.advance(80);
   const auto second = repeated(cloth);
   second->apply(edit::Release{}), second->advance(300);
   const auto third = repeated(*second);
@@ -197,7 +212,8 @@ TEST_CASE("what is wrong with a file is said, and nothing else happens") {
 TEST_CASE("in the sandbox an experiment is opened, repeated and compared; a touch makes it the user's") {
   Simulation cloth(test::cloth(8, 8));
   cloth.keep_hashes(true);
-  cloth.advance(300), cloth.apply(edit::Grab{7, 3}), cloth.apply(edit::MoveHand{{0.1, 0.9, 0.2}, 50}), cloth.advance(80);
+  cloth.advance(300), cloth.apply(edit::Grab{7, 3}), cloth.apply(edit::MoveHand{{0.1, 0.9, 0.2}, 50}),
+      cloth.advance(80);
   Preset next = cloth.preset();
   next.k_s = 70;
   cloth.apply(edit::Change{next}), cloth.apply(edit::Release{}), cloth.advance(220);

@@ -51,18 +51,29 @@ struct Played {
 void happen(Played& played, test::Random& random) {
   const int i = random.below(8), j = random.below(8);
   switch (random.below(8)) {
-    case 0: played.change(random.uniform(20, 50)); break;
-    case 1: apply_edit(played.session, edit::Cut{{{i, j}}}); break;
-    case 2: apply_edit(played.session, edit::Pin{i, j, random.below(2) == 0}); break;
+    case 0:
+      played.change(random.uniform(20, 50));
+      break;
+    case 1:
+      apply_edit(played.session, edit::Cut{{{i, j}}});
+      break;
+    case 2:
+      apply_edit(played.session, edit::Pin{i, j, random.below(2) == 0});
+      break;
     case 3: {
       if (!apply_edit(played.session, edit::Grab{i, j})) break;
       played.play(6, played.cloth().position(i, j) + glm::dvec3(0.05, 0.02, random.uniform(-0.1, 0.1)));
       apply_edit(played.session, edit::Release{});
       break;
     }
-    case 4: apply_edit(played.session, edit::MoveBody{0, {random.uniform(-0.1, 0.1), 0.5, 0}, 9}); break;
-    case 5: restart(played.session); break;
-    default: break;
+    case 4:
+      apply_edit(played.session, edit::MoveBody{0, {random.uniform(-0.1, 0.1), 0.5, 0}, 9});
+      break;
+    case 5:
+      restart(played.session);
+      break;
+    default:
+      break;
   }
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "app/base/settings.h"
 #include "app/base/image.h"
+#include "app/base/settings.h"
 #include "app/shell/sandbox.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"

@@ -14,9 +14,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "app/base/image.h"
 #include "app/base/settings.h"
 #include "app/cli/commands/commands.h"
-#include "app/base/image.h"
 #include "app/session/lab.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"

@@ -508,7 +508,7 @@ TEST_CASE("from a width of 1280 on a lab is a column beside a cloth of full heig
       const float scale = window.ui.theme.scale, width = float(size.x), height = float(size.y);
       const Viewport::Box cloth = window.ui.viewport.box;
       CHECK(window.ui.viewport.whole().x >= 0.45f * width);
-      CHECK(cloth.lo.y <= 96 * scale);  // the bar and the view buttons
+      CHECK(cloth.lo.y <= 96 * scale);                                                // the bar and the view buttons
       CHECK(cloth.hi.y == height - std::round(30 * scale) - std::round(26 * scale));  // status line and timeline
       CHECK(lab_size().x >= 360 * scale);
       CHECK(lab_size().x <= 400 * scale);

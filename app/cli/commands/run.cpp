@@ -50,8 +50,8 @@ struct RunOptions {
 
   /// All but --obj, which names a folder.
   std::vector<Output> outputs() const {
-    return {{"--state", state},   {"--values", values}, {"--series", series},
-            {"--ledger", ledger}, {"--pc2", pc2, true}, {"--record", record, true}, {"--json", json}};
+    return {{"--state", state},   {"--values", values},       {"--series", series}, {"--ledger", ledger},
+            {"--pc2", pc2, true}, {"--record", record, true}, {"--json", json}};
   }
   bool wants_frames() const { return !obj.empty() || !pc2.empty(); }
 
@@ -155,7 +155,8 @@ class Outputs {
     const Reach moment = interrupted ? Reach::stopped : Reach::whole;
     if (!options_.state.empty()) add("state", write_output(options_.state, state_csv(simulation), moment));
     if (!options_.values.empty()) add("values", write_output(options_.values, values_csv(simulation, nullptr), moment));
-    if (!options_.record.empty()) add("experiment", save_experiment(experiment_of(simulation), options_.record, moment));
+    if (!options_.record.empty())
+      add("experiment", save_experiment(experiment_of(simulation), options_.record, moment));
     return files;
   }
 
@@ -431,8 +432,8 @@ int run(const RunOptions& options) {
                               diverged                ? "diverged"
                               : stepper.interrupted() ? "interrupted"
                                                       : "done",
-                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0, end, playback ? &*playback : nullptr,
-                              outputs.finish(simulation, stepper.interrupted()));
+                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0, end,
+                              playback ? &*playback : nullptr, outputs.finish(simulation, stepper.interrupted()));
   std::string summary_name;
   if (!options.json.empty())
     summary_name = output_name(
@@ -440,8 +441,9 @@ int run(const RunOptions& options) {
 
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (playback)
-    people(options.outputs()) << "Repeated " << in_one_line(scene.source.label) << ".tyglab: "
-                              << comparison_in_words(*playback, *scene.experiment, scene.as_recorded) << std::endl;
+    people(options.outputs()) << "Repeated " << in_one_line(scene.source.label)
+                              << ".tyglab: " << comparison_in_words(*playback, *scene.experiment, scene.as_recorded)
+                              << std::endl;
   if (in_haste)
     end_interrupted(options.state.empty() && options.values.empty()
                         ? ""
@@ -507,9 +509,10 @@ void add_run_command(CLI::App& program, Action& action) {
   command->add_option("--fps", options->fps, "Frames per second of simulated time (default 25)")
       ->type_name("F")
       ->transform(number_between(1e-6, 1e7, "frames per second"));
-  add_output(*command, "--record", options->record,
-             "Write the run as an experiment: its preset, its events, and checks of the positions. `tyglab run F.tyglab`\n"
-             "repeats it and compares the positions; the sandbox opens it")
+  add_output(
+      *command, "--record", options->record,
+      "Write the run as an experiment: its preset, its events, and checks of the positions. `tyglab run F.tyglab`\n"
+      "repeats it and compares the positions; the sandbox opens it")
       ->type_name("F.tyglab");
   add_output(*command, "--json", options->json, "Write a summary for programs")->type_name("F.json");
   command->footer(

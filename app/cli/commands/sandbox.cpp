@@ -26,7 +26,9 @@ struct Options {
   bool no_panels = false;
 
   std::vector<Output> outputs() const {
-    return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report},
+    return {{"--screenshot", screenshot, true},
+            {"--time-report", time_report},
+            {"--session-report", session_report},
             {"--record", record}};
   }
 };

@@ -16,14 +16,21 @@ namespace {
 ImU32 color_of(const Tokens& c, TimelineMark::Kind kind) {
   using Kind = TimelineMark::Kind;
   switch (kind) {
-    case Kind::change: return c.sky;
+    case Kind::change:
+      return c.sky;
     case Kind::hand:
-    case Kind::body: return c.orange;
-    case Kind::cut: return c.vermilion;
-    case Kind::diverged: return c.danger;
-    case Kind::pin: return c.yellow;
-    case Kind::branch: return c.magenta;
-    default: return c.text;
+    case Kind::body:
+      return c.orange;
+    case Kind::cut:
+      return c.vermilion;
+    case Kind::diverged:
+      return c.danger;
+    case Kind::pin:
+      return c.yellow;
+    case Kind::branch:
+      return c.magenta;
+    default:
+      return c.text;
   }
 }
 

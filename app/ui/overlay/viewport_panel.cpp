@@ -196,8 +196,9 @@ void viewport_panel(Ui& ui, const Region& whole) {
   pictures(ui, draw);
   marks(ui, draw, region);
   if (timeline > 0 && !ui.bare())
-    timeline_strip(ui, draw, {{region.at.x, region.at.y + region.size.y},
-                              {region.at.x + region.size.x, whole.at.y + whole.size.y}});
+    timeline_strip(
+        ui, draw,
+        {{region.at.x, region.at.y + region.size.y}, {region.at.x + region.size.x, whole.at.y + whole.size.y}});
   end_region();
 }
 
