@@ -21,8 +21,7 @@ namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000'000;
 constexpr std::size_t most_values = 4'000'000;
-constexpr std::size_t longest_mark = 1000;  // bytes
-constexpr double farthest = 1e9;            // m, of the hand
+constexpr double farthest = 1e9;  // m, of the hand
 
 // Bytes as text.
 
@@ -108,37 +107,32 @@ class EventText {
 
 std::string text_of(const Recording::Entry& entry) {
   EventText text(entry.step);
-  std::visit(Overloaded{[&](const event::Change& e) { text.word("set").words(e.settings); },
-                        [&](const edit::Restart&) { text.word("restart"); },
-                        [&](const edit::Grab& e) { text.word("grab").number(e.i).number(e.j); },
-                        [&](const edit::MoveHand& e) { text.word("hand").point(e.to).number(e.steps); },
-                        [&](const edit::Release&) { text.word("release"); },
-                        [&](const edit::Cut& e) {
-                          text.word("cut");
-                          for (const Pins::Site& site : e.sites) text.number(site.i).number(site.j);
-                        },
-                        [&](const edit::CutSprings& e) {
-                          text.word("cut springs");
-                          for (const SpringSite& one : e.springs) text.number(one.direction).number(one.i).number(one.j);
-                        },
-                        [&](const edit::Pin& e) {
-                          text.word("pin").number(e.i).number(e.j).add(e.pinned ? "true" : "false");
-                        },
-                        [&](const edit::MoveBody& e) {
-                          text.word("body").number(e.index).point(e.c).number(e.steps);
-                        },
-                        [&](const event::Resume& e) {
-                          text.word("resume").add(e.held ? "true" : "false").words(e.settings);
-                        },
-                        [&](const event::Load& e) { text.word("state").word(in_base64(bytes_of(*e.state))); },
-                        [&](const event::Hash& e) { text.word("hash").word(in_hexadecimal(e.value)); },
-                        [&](const event::Look& e) {
-                          text.word("look");
-                          for (const glm::dvec3& x : e.x) text.point(x);
-                        },
-                        [&](const event::Diverge&) { text.word("diverged"); },
-                        [&](const event::Mark& e) { text.word("mark").word(e.words); }},
-             *entry.event);
+  std::visit(
+      Overloaded{[&](const event::Change& e) { text.word("set").words(e.settings); },
+                 [&](const edit::Restart&) { text.word("restart"); },
+                 [&](const edit::Grab& e) { text.word("grab").number(e.i).number(e.j); },
+                 [&](const edit::MoveHand& e) { text.word("hand").point(e.to).number(e.steps); },
+                 [&](const edit::Release&) { text.word("release"); },
+                 [&](const edit::Cut& e) {
+                   text.word("cut");
+                   for (const Pins::Site& site : e.sites) text.number(site.i).number(site.j);
+                 },
+                 [&](const edit::CutSprings& e) {
+                   text.word("cut springs");
+                   for (const SpringSite& one : e.springs) text.number(one.direction).number(one.i).number(one.j);
+                 },
+                 [&](const edit::Pin& e) { text.word("pin").number(e.i).number(e.j).add(e.pinned ? "true" : "false"); },
+                 [&](const edit::MoveBody& e) { text.word("body").number(e.index).point(e.c).number(e.steps); },
+                 [&](const event::Resume& e) { text.word("resume").add(e.held ? "true" : "false").words(e.settings); },
+                 [&](const event::Load& e) { text.word("state").word(in_base64(bytes_of(*e.state))); },
+                 [&](const event::Hash& e) { text.word("hash").word(in_hexadecimal(e.value)); },
+                 [&](const event::Look& e) {
+                   text.word("look");
+                   for (const glm::dvec3& x : e.x) text.point(x);
+                 },
+                 [&](const event::Diverge&) { text.word("diverged"); },
+                 [&](const event::Mark& e) { text.word("mark").word(e.words); }},
+      *entry.event);
   return text.end();
 }
 
@@ -210,7 +204,7 @@ class EventReader {
     if (word_ == "diverged") return event::Diverge{};
     if (word_ == "mark") {
       std::string words = printable(text());
-      if (words.size() > longest_mark) fail("has a mark of more than 1000 bytes");
+      if (words.size() > longest_mark) fail("has a mark of more than " + std::to_string(longest_mark) + " bytes");
       return event::Mark{std::move(words)};
     }
     fail("is \"" + printable(excerpt(word_)) + "\", which is not known");
@@ -329,8 +323,12 @@ bool sets_texture(const std::string& setting) {
   return setting.starts_with("texture=");
 }
 
-/// Without pictures outside the program's own folder: a file names no other file.
-Event without_pictures(Event event) {
+/// As a file may have it: without pictures outside the program's own folder, since a file names no other file, and with
+/// marks that are not too long.
+Event as_in_file(Event event) {
+  constexpr std::size_t continued = 3;  // bytes that say so
+  if (auto* mark = std::get_if<event::Mark>(&event); mark != nullptr && mark->words.size() > longest_mark)
+    mark->words = excerpt(mark->words, longest_mark - continued);
   if (auto* change = std::get_if<event::Change>(&event)) std::erase_if(change->settings, sets_texture);
   if (auto* resume = std::get_if<event::Resume>(&event)) std::erase_if(resume->settings, sets_texture);
   return event;
@@ -346,7 +344,7 @@ Experiment experiment_of(const Simulation& simulation) {
   Constants constants(start);
   for (const auto& [step, event] : past.events()) {
     recording.add_steps(step - recording.steps());
-    Event kept = without_pictures(*event);
+    Event kept = as_in_file(*event);
     constants.follow(step, kept);
     recording.add(std::move(kept));
   }
@@ -356,9 +354,8 @@ Experiment experiment_of(const Simulation& simulation) {
   if (!simulation.divergence()) recording.add(event::Hash{simulation.hash()}), recording.add(simulation.look());
   if (!past.repeats()) recording.give_up_repeating();
   const Preset& now = simulation.preset();
-  return {std::move(recording), TYGLAB_VERSION,
-          simulation.engine().name() + ", " + std::string(name_of(now.precision)), constants.seconds(),
-          constants.largest()};
+  return {std::move(recording), TYGLAB_VERSION, simulation.engine().name() + ", " + std::string(name_of(now.precision)),
+          constants.seconds(), constants.largest()};
 }
 
 std::string experiment_text(const Experiment& experiment) {
@@ -386,8 +383,8 @@ Experiment parse_experiment(std::string_view text, std::string_view source) {
   if (version > experiment_version)
     fail("was made by a newer version of Tyglab (format " + shortest_number(version) + "); this one reads format " +
          std::to_string(experiment_version));
-  constexpr std::array<std::string_view, 7> known{"tyglab_experiment", "version", "made_with", "repeats",
-                                                  "steps",             "preset",  "events"};
+  constexpr std::array<std::string_view, 7> known{
+      "tyglab_experiment", "version", "made_with", "repeats", "steps", "preset", "events"};
   for (const JsonNode::Member& one : root.members)
     if (std::find(known.begin(), known.end(), one.key) == known.end())
       fail("line " + std::to_string(one.value.line) + ": unknown key \"" + printable(excerpt(one.key)) + "\"");
@@ -425,11 +422,10 @@ std::string comparison_in_words(const Playback& playback, const Experiment& expe
   const Playback::Comparison& found = playback.comparison();
   if (!playback.recording().repeats())
     return "steps of the recording ended after a limit of real time, so the motion does not repeat exactly.";
-  const std::string apart =
-      found.looked_at == 0
-          ? ""
-          : "At step " + grouped(found.looked_at) + " the corners, the edges' middles and the middle are at most " +
-                printed("%.2g", found.apart) + " m away from where they were.";
+  const std::string apart = found.looked_at == 0 ? ""
+                                                 : "At step " + grouped(found.looked_at) +
+                                                       " the corners, the edges' middles and the middle are at most " +
+                                                       printed("%.2g", found.apart) + " m away from where they were.";
   if (found.compared == 0) return "the recording has no checks of the positions, so nothing was compared.";
   if (!found.differs_at)
     return "the positions equal the recorded ones to the last bit, in " + grouped(found.compared) +
