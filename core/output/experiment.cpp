@@ -96,7 +96,8 @@ class EventText {
   }
   EventText& number(int value) { return add(std::to_string(value)); }
   EventText& point(const glm::dvec3& at) {
-    for (int c = 0; c < 3; ++c) add(shortest_number(at[c]));
+    // JSON's -0 is a whole number, which has no sign.
+    for (int c = 0; c < 3; ++c) add(at[c] == 0 && std::signbit(at[c]) ? "-0.0" : shortest_number(at[c]));
     return *this;
   }
   std::string end() const { return text_ + "]"; }
