@@ -424,7 +424,7 @@ std::string comparison_in_words(const Playback& playback, const Experiment& expe
   if (!playback.recording().repeats())
     return "steps of the recording ended after a limit of real time, so the motion does not repeat exactly.";
   const std::string apart = found.looked_at == 0 ? ""
-                                                 : "At step " + grouped(found.looked_at) +
+                                                 : " At step " + grouped(found.looked_at) +
                                                        " the corners, the edges' middles and the middle are at most " +
                                                        printed("%.2g", found.apart) + " m away from where they were.";
   if (found.compared == 0) return "the recording has no checks of the positions, so nothing was compared.";
@@ -435,7 +435,7 @@ std::string comparison_in_words(const Playback& playback, const Experiment& expe
          grouped(*found.differs_at) + "; " +
          (own_start ? "the recording was made with " + experiment.made_with
                     : std::string("the command line changed the start")) +
-         ". " + apart;
+         "." + apart;
 }
 
 }  // namespace tyglab
