@@ -14,6 +14,10 @@ constexpr std::uintmax_t most_packed = 32 << 20;
 constexpr std::size_t most_text = 128 << 20;
 constexpr double best_ratio = 1032;  // of deflate
 
+std::string packed_text(const std::string& text) {
+  return std::string(head) + std::to_string(text.size()) + "\n" + packed(text);
+}
+
 }  // namespace
 
 bool is_experiment(const std::filesystem::path& file) {
@@ -21,8 +25,7 @@ bool is_experiment(const std::filesystem::path& file) {
 }
 
 std::string experiment_bytes(const Experiment& experiment) {
-  const std::string text = experiment_text(experiment);
-  return std::string(head) + std::to_string(text.size()) + "\n" + packed(text);
+  return packed_text(experiment_text(experiment));
 }
 
 Experiment experiment_from(std::string_view bytes, std::string_view source) {
@@ -51,7 +54,12 @@ Experiment load_experiment(const std::filesystem::path& file) {
 }
 
 std::filesystem::path save_experiment(const Experiment& experiment, const std::filesystem::path& file, Reach reach) {
-  return write_output(file, experiment_bytes(experiment), reach);
+  const std::string text = experiment_text(experiment);
+  const std::string bytes = text.size() <= most_text ? packed_text(text) : "";
+  if (bytes.empty() || bytes.size() > most_packed)
+    throw OutputError("The experiment " + file.string() +
+                      " is not written: it would be larger than what Tyglab reads, 32 MiB, or 128 MiB of text.");
+  return write_output(file, bytes, reach);
 }
 
 }  // namespace tyglab

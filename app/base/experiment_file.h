@@ -14,7 +14,7 @@ namespace tyglab {
 bool is_experiment(const std::filesystem::path& file);
 /// Reads a file. Throws PresetError (missing, unreadable, damaged, too large, wrong).
 Experiment load_experiment(const std::filesystem::path& file);
-/// Writes one (write_output). Returns where it is. Throws OutputError.
+/// Writes one (write_output). Returns where it is. Throws OutputError, also if it were too large to be read.
 std::filesystem::path save_experiment(const Experiment& experiment, const std::filesystem::path& file,
                                       Reach reach = Reach::whole);
 /// The bytes of such a file, and back. `source` names it in errors. Throws PresetError.

@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -14,12 +15,15 @@
 #include <utility>
 #include <vector>
 
+#include "app/base/experiment_file.h"
 #include "app/python/bindings.h"
 #include "core/analysis/frequency.h"
 #include "core/integrators/scheme.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
+#include "core/output/experiment.h"
 #include "core/output/state_csv.h"
+#include "core/playback.h"
 #include "core/theory/advice.h"
 #include "core/theory/modes.h"
 
@@ -48,6 +52,7 @@ class Motion {
     if (const std::string problem = check_preset(preset); !problem.empty()) throw PresetError(problem);
     if (threads < 1 || threads > 256) throw py::value_error("threads must be from 1 to 256");
     simulation_ = std::make_unique<Simulation>(preset, threads);
+    simulation_->keep_hashes(true);
     // As `tyglab run` says it at its start. A filter may make it an exception.
     const std::string coarse = precision_too_coarse(preset);
     if (!coarse.empty() && PyErr_WarnEx(PyExc_UserWarning, coarse.c_str(), 1) != 0) throw py::error_already_set();
@@ -71,6 +76,20 @@ class Motion {
     interrupt.raise();
     if (simulation.divergence()) raise_diverged(*simulation.divergence());
     return made;
+  }
+
+  /// Makes all that was recorded; the simulation is at its start.
+  void repeat(Playback& playback) {
+    Simulation& simulation = at_rest();
+    Interrupt interrupt;
+    simulation.stop_when(interrupt.stop());
+    {
+      const Stepping stepping(stepping_);
+      const py::gil_scoped_release unlocked;
+      playback.advance(simulation, playback.recording().steps());
+    }
+    simulation.stop_when({});
+    interrupt.raise();
   }
 
   void apply(const Edit& edit) {
@@ -293,6 +312,55 @@ void move_body(Motion& motion, int index, const Vector& c) {
   motion.apply(edit::MoveBody{index, from(c)});
 }
 
+void mark(Motion& motion, const std::string& words) {
+  if (words.size() > longest_mark)
+    throw py::value_error("a mark may have at most " + std::to_string(longest_mark) + " bytes");
+  motion.at_rest().mark(words);
+}
+
+/// An experiment that was repeated.
+struct Repetition {
+  py::object simulation;
+  Playback::Comparison found;
+  bool repeats;       ///< no step was ended by a limit of real time
+  std::string words;  ///< a sentence
+};
+
+Repetition repeat(const std::filesystem::path& file, int threads) {
+  const Experiment experiment = load_experiment(file);
+  auto motion = std::make_unique<Motion>(experiment.recording.start(), threads);
+  Playback playback(experiment.recording);
+  motion->repeat(playback);
+  std::string words = comparison_in_words(playback, experiment);
+  words.front() = char(std::toupper(static_cast<unsigned char>(words.front())));
+  return {py::cast(std::move(motion)), playback.comparison(), experiment.recording.repeats(), std::move(words)};
+}
+
+void add_repetition(py::module_& module) {
+  py::class_<Repetition> type(module, "Repetition",
+                              "A repeated experiment, and how its positions compare with the recorded ones: repeat().");
+  refuse_objects_without_value(type);
+  type.def_readonly("simulation", &Repetition::simulation, "The Simulation at the end of the experiment.")
+      .def_property_readonly(
+          "exact", [](const Repetition& r) { return r.repeats && r.found.compared > 0 && !r.found.differs_at; },
+          "Whether the positions were compared, and equal the recorded ones to the last bit in each comparison.")
+      .def_property_readonly(
+          "compared", [](const Repetition& r) { return r.found.compared; },
+          "Number of comparisons: one every 256 steps, and one at the end.")
+      .def_property_readonly(
+          "equal_until", [](const Repetition& r) { return r.found.equal_until; },
+          "The last step at which the positions were compared and equal.")
+      .def_property_readonly(
+          "differs_at", [](const Repetition& r) { return r.found.differs_at; },
+          "The first step at which they were compared and differed, or None.")
+      .def_property_readonly(
+          "apart",
+          [](const Repetition& r) { return r.found.looked_at > 0 ? std::optional(r.found.apart) : std::nullopt; },
+          "Largest distance of nine sites (corners, middles of the edges, middle) from where they were recorded last, "
+          "m; None if none was recorded.")
+      .def("__str__", [](const Repetition& r) { return r.words; });
+}
+
 void add_divergence(py::module_& module) {
   py::class_<Divergence> type(module, "Divergence", "Time, place and cause of a divergence.");
   refuse_objects_without_value(type);
@@ -433,6 +501,22 @@ void add_simulation(py::module_& module) {
           "save_state",
           [](Motion& m, const std::filesystem::path& file) { write_output(file, state_csv(m.at_rest())); },
           py::arg("file"), "Writes the state file that `tyglab run --state` writes. Raises OSError.");
+  motion
+      .def(
+          "save_experiment",
+          [](const Motion& m, const std::filesystem::path& file) { save_experiment(experiment_of(m.at_rest()), file); },
+          py::arg("file"),
+          "Writes the experiment, NAME.tyglab: the first preset, everything done since, at its step, and hashes of the "
+          "positions. repeat(), `tyglab run` and the sandbox repeat it. Raises OSError.")
+      .def("mark", &mark, py::arg("words"),
+           "Adds a remark to the experiment at the present step, at most 1000 bytes. Control characters become spaces.")
+      .def_property_readonly(
+          "hash", [](const Motion& m) { return m.at_rest().hash(); },
+          "Hash of the bits of all positions, 64 bits: equal for two states that agree to the last bit.");
+  add_repetition(module);
+  module.def("repeat", &repeat, py::arg("file"), py::arg("threads") = 1,
+             "Repeats an experiment (Simulation.save_experiment()) from its preset to its end, and compares the "
+             "positions with the recorded ones. Raises PresetError for a file that is wrong or missing.");
 }
 
 }  // namespace tyglab::python

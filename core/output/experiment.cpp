@@ -21,8 +21,7 @@ namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000'000;
 constexpr std::size_t most_values = 4'000'000;
-constexpr std::size_t longest_mark = 1000;  // bytes
-constexpr double farthest = 1e9;            // m, of the hand
+constexpr double farthest = 1e9;  // m, of the hand
 
 // Bytes as text.
 
@@ -97,7 +96,8 @@ class EventText {
   }
   EventText& number(int value) { return add(std::to_string(value)); }
   EventText& point(const glm::dvec3& at) {
-    for (int c = 0; c < 3; ++c) add(shortest_number(at[c]));
+    // JSON's -0 is a whole number, which has no sign.
+    for (int c = 0; c < 3; ++c) add(at[c] == 0 && std::signbit(at[c]) ? "-0.0" : shortest_number(at[c]));
     return *this;
   }
   std::string end() const { return text_ + "]"; }
@@ -205,7 +205,7 @@ class EventReader {
     if (word_ == "diverged") return event::Diverge{};
     if (word_ == "mark") {
       std::string words = printable(text());
-      if (words.size() > longest_mark) fail("has a mark of more than 1000 bytes");
+      if (words.size() > longest_mark) fail("has a mark of more than " + std::to_string(longest_mark) + " bytes");
       return event::Mark{std::move(words)};
     }
     fail("is \"" + printable(excerpt(word_)) + "\", which is not known");
@@ -324,8 +324,12 @@ bool sets_texture(const std::string& setting) {
   return setting.starts_with("texture=");
 }
 
-/// Without pictures outside the program's own folder: a file names no other file.
-Event without_pictures(Event event) {
+/// As a file may have it: without pictures outside the program's own folder, since a file names no other file, and with
+/// marks that are not too long.
+Event as_in_file(Event event) {
+  constexpr std::size_t continued = 3;  // bytes that say so
+  if (auto* mark = std::get_if<event::Mark>(&event); mark != nullptr && mark->words.size() > longest_mark)
+    mark->words = excerpt(mark->words, longest_mark - continued);
   if (auto* change = std::get_if<event::Change>(&event)) std::erase_if(change->settings, sets_texture);
   if (auto* resume = std::get_if<event::Resume>(&event)) std::erase_if(resume->settings, sets_texture);
   return event;
@@ -341,7 +345,7 @@ Experiment experiment_of(const Simulation& simulation) {
   Constants constants(start);
   for (const auto& [step, event] : past.events()) {
     recording.add_steps(step - recording.steps());
-    Event kept = without_pictures(*event);
+    Event kept = as_in_file(*event);
     constants.follow(step, kept);
     recording.add(std::move(kept));
   }
@@ -420,7 +424,7 @@ std::string comparison_in_words(const Playback& playback, const Experiment& expe
   if (!playback.recording().repeats())
     return "steps of the recording ended after a limit of real time, so the motion does not repeat exactly.";
   const std::string apart = found.looked_at == 0 ? ""
-                                                 : "At step " + grouped(found.looked_at) +
+                                                 : " At step " + grouped(found.looked_at) +
                                                        " the corners, the edges' middles and the middle are at most " +
                                                        printed("%.2g", found.apart) + " m away from where they were.";
   if (found.compared == 0) return "the recording has no checks of the positions, so nothing was compared.";
@@ -431,7 +435,7 @@ std::string comparison_in_words(const Playback& playback, const Experiment& expe
          grouped(*found.differs_at) + "; " +
          (own_start ? "the recording was made with " + experiment.made_with
                     : std::string("the command line changed the start")) +
-         ". " + apart;
+         "." + apart;
 }
 
 }  // namespace tyglab

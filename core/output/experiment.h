@@ -1,6 +1,7 @@
 // An experiment as text: a recording (core/recording.h), and with what it was made. docs/presets.md has the format.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@ struct Experiment {
 Experiment experiment_of(const Simulation& simulation);
 
 inline constexpr int experiment_version = 1;
+inline constexpr std::size_t longest_mark = 1000;  // bytes
 
 std::string experiment_text(const Experiment& experiment);
 /// Reads and checks all of it; `source` names it in errors. Throws PresetError.

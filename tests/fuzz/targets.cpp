@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,17 +12,22 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "app/base/experiment_file.h"
 #include "app/base/image.h"
 #include "app/base/settings.h"
 #include "app/cli/commands/commands.h"
 #include "app/session/lab.h"
+#include "core/engines/engine.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"
+#include "core/playback.h"
+#include "core/simulation.h"
 #include "tests/fuzz/csv_reader.h"
 #include "tests/support/pictures.h"
 #include "tests/support/places.h"
@@ -97,6 +103,69 @@ void read_settings_file(std::string_view input) {
   const Settings settings = load_settings(problem);
   require(problem.empty() || problem.size() >= 8, "a refusal says why");
   require(!settings.session || check_preset(settings.session->preset).empty(), "a session's preset is good");
+}
+
+/// Whether it is repeated in an instant, wherever it leads.
+bool is_small(const Experiment& experiment) {
+  const Preset& largest = experiment.largest;
+  return largest.rows * largest.columns <= 64 && experiment.recording.steps() <= 50 &&
+         experiment.recording.events().size() <= 200;
+}
+
+/// An experiment is repeated to its end, to a divergence, to an event that does not fit the cloth, or for a second.
+void repeat(const Experiment& experiment) {
+  for (const Recording::Entry& entry : experiment.recording.events())
+    if (const auto* change = std::get_if<event::Change>(entry.event))
+      for (const std::string& setting : change->settings)
+        if (setting.find("opencl") != std::string::npos) return;  // a driver takes seconds to compile
+  if (experiment.recording.start().engine == EngineKind::opencl) return;
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + std::chrono::seconds(1);
+  bool late = false;
+  const auto in_time = [&](Simulation& simulation) {
+    simulation.stop_when([&] { return late = late || Clock::now() > until; });
+  };
+  const auto repeats = [&] {
+    Playback playback(experiment.recording);
+    Simulation simulation(experiment.recording.start());
+    in_time(simulation), simulation.keep_hashes(true);
+    playback.advance(simulation, experiment.recording.steps());
+    require(late || simulation.divergence() || playback.over(simulation), "a repetition comes to its end");
+    require_good(simulation.preset());
+    const std::string again = experiment_text(experiment_of(simulation));
+    const Experiment own = parse_experiment(again, "again");
+    require(experiment_text(own) == again, "what was repeated can be saved");
+    Playback second(own.recording);
+    Simulation other(own.recording.start());
+    in_time(other);
+    second.advance(other, own.recording.steps());
+    require(late || (second.over(other) && !second.comparison().differs_at && other.hash() == simulation.hash()),
+            "and repeated to the last bit");
+  };
+  try {
+    read_or_refuse<PresetError>(repeats);
+  } catch (const EngineError& error) {
+    require(std::string(error.what()).size() >= 8, "a refusal says why");
+  }
+}
+
+/// A file of an experiment: packed, or its text.
+void read_experiment(std::string_view input) {
+  std::optional<Experiment> read;
+  read_or_refuse<PresetError>([&] { read = experiment_from(input, "fuzz.tyglab"); });
+  if (!read) return;
+  const Recording& recording = read->recording;
+  require_good(recording.start());
+  const std::string text = experiment_text(*read);
+  const Experiment other = parse_experiment(text, "again");
+  require(experiment_text(other) == text, "what is written is read as it was");
+  require(other.seconds == read->seconds && other.largest == read->largest, "so is what follows from it");
+  require(experiment_text(experiment_from(experiment_bytes(*read), "again")) == text, "so is what is packed");
+  std::int64_t step = 0;
+  for (const Recording::Entry& entry : recording.events())
+    require(entry.step >= std::exchange(step, entry.step), "events follow each other");
+  require(step <= recording.steps(), "and none is later than the end");
+  if (is_small(*read)) repeat(*read);
 }
 
 std::string content(const fs::path& file) {
@@ -215,6 +284,41 @@ std::vector<std::string> lab_seeds() {
   return files_of("docs/labs", ".md");
 }
 
+/// Of every kind of event, packed and as text.
+std::vector<std::string> experiment_seeds() {
+  std::vector<std::string> all;
+  const auto add = [&](const Simulation& simulation) {
+    const Experiment experiment = experiment_of(simulation);
+    all.push_back(experiment_bytes(experiment)), all.push_back(experiment_text(experiment));
+  };
+  for (const char* tearing : {"springs", "split"}) {
+    Preset preset;
+    preset.rows = 6, preset.columns = 5, preset.tearing = tearing, preset.bodies = {Body{.c = {0, 0.6, 0}, .r = 0.1}};
+    Simulation cloth(preset);
+    add(cloth);
+    cloth.mark(std::string(2 * longest_mark, 'x')), cloth.advance(3);
+    cloth.apply(edit::Grab{5, 2}), cloth.apply(edit::MoveHand{{0.1, 0.7, -0.0}, 4}), cloth.advance(5);
+    const Snapshot then = cloth.snapshot();
+    cloth.apply(edit::Release{}), cloth.apply(edit::Cut{{{3, 1}, {3, 2}, {3, 3}}}), cloth.advance(2);
+    cloth.apply(edit::CutSprings{{{0, 1, 1}, {1, 1, 1}}}), cloth.apply(edit::Pin{5, 0, true}), cloth.advance(2);
+    cloth.apply(edit::MoveBody{0, {0, 0.7, 0}, 3}), cloth.advance(4);
+    preset = cloth.preset(), preset.k_s = 80, preset.precision = Precision::double_, preset.integrator = "rk4";
+    cloth.apply(edit::Change{preset}), cloth.advance(3);
+    add(cloth);
+    if (cloth.fits(then)) cloth.restore(then), cloth.advance(2);
+    cloth.load(cloth.read()), cloth.advance(3);
+    add(cloth);
+    cloth.apply(edit::Restart{}), cloth.advance(2);
+    preset = cloth.preset(), preset.rows = 7, preset.W = {0, 0, 1e-4}, preset.gust = 0.5;
+    cloth.apply(edit::Change{preset}), cloth.advance(10);
+    preset.k_s = 1e6, cloth.apply(edit::Change{preset}), cloth.advance(20);
+    require(cloth.divergence().has_value(), "the seed diverges");
+    add(cloth);
+  }
+  for (const std::string& seed : all) experiment_from(seed, "a seed");
+  return all;
+}
+
 std::vector<std::string> picture_seeds() {
   std::vector<std::string> all = test::pictures_of_all_kinds(12);
   for (std::string& picture : files_of("tests/fuzz/pictures", ".jpg")) all.push_back(std::move(picture));
@@ -260,6 +364,7 @@ std::vector<std::string> table_seeds() {
 constexpr Target all_targets[]{{"presets", read_preset_text, preset_seeds},
                                {"settings", read_settings, setting_seeds},
                                {"labs", read_lab, lab_seeds},
+                               {"experiments", read_experiment, experiment_seeds},
                                {"pictures", read_picture, picture_seeds},
                                {"sessions", read_settings_file, settings_file_seeds},
                                {"command_lines", read_command_line, command_line_seeds},

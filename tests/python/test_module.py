@@ -5,6 +5,7 @@ import ast
 import copy
 import csv
 import inspect
+import json
 import os
 import pathlib
 import pickle
@@ -17,6 +18,7 @@ import threading
 import time
 import unittest
 import warnings
+import zlib
 
 import numpy as np
 import tyglab
@@ -97,7 +99,7 @@ class Presets(unittest.TestCase):
                 preset.save(pathlib.Path(folder) / "none" / "mine.json")
 
     def test_an_object_that_was_never_made_is_refused(self):
-        for kind in (tyglab.Preset, tyglab.Simulation, tyglab.Snapshot, tyglab.Divergence):
+        for kind in (tyglab.Preset, tyglab.Simulation, tyglab.Snapshot, tyglab.Divergence, tyglab.Repetition):
             unmade = kind.__new__(kind)
             for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
                 with self.assertRaises(TypeError):
@@ -350,6 +352,120 @@ class Simulations(unittest.TestCase):
         self.assertGreater(made, 0)
         simulation.step(2)
         self.assertEqual(simulation.steps, made + 2)
+
+
+class Experiments(unittest.TestCase):
+    @staticmethod
+    def experiment():
+        """A simulation to which everything was done that can be done, and its start."""
+        start = tyglab.Preset(rows=9, columns=8, bodies=[{"c": [0, 0.4, 0], "r": 0.1}])
+        simulation = tyglab.Simulation(start)
+        simulation.step(300)
+        simulation.mark("the hand grabs a corner")
+        simulation.grab(8, 7)
+        simulation.move_hand(simulation.positions[8, 7] + [0.05, 0.1, 0.02], 40)
+        then = simulation.snapshot()
+        simulation.step(60)
+        simulation.release()
+        simulation.cut([(4, 2), (4, 3)])
+        simulation.change(k_s=70, W=[0, 0, 0.0001])
+        simulation.pin(8, 0)
+        simulation.step(250)
+        simulation.restore(then)
+        simulation.step(33)
+        simulation.load(simulation.positions, np.zeros_like(simulation.velocities))
+        simulation.move_body(0, [0, 0.45, 0.05])
+        simulation.step(100)
+        simulation.restart()
+        simulation.change(precision="double", integrator="rk4")
+        simulation.cut([(3, 5)])
+        simulation.step(300)
+        return simulation, start
+
+    def test_what_was_done_is_repeated_to_the_last_bit(self):
+        simulation, start = self.experiment()
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "all.tyglab"
+            simulation.save_experiment(file)
+            self.assertEqual(tyglab.Preset.load(str(file)), start)
+            for threads in (1, 2):
+                found = tyglab.repeat(file, threads=threads)
+                self.assertTrue(np.array_equal(found.simulation.positions, simulation.positions))
+                self.assertTrue(np.array_equal(found.simulation.velocities, simulation.velocities))
+                self.assertEqual(found.simulation.hash, simulation.hash)
+                self.assertEqual(found.simulation.preset, simulation.preset)
+                self.assertEqual((found.simulation.steps, found.simulation.time), (simulation.steps, simulation.time))
+                self.assertEqual(found.simulation.torn, simulation.torn)
+                self.assertEqual((found.exact, found.differs_at, found.apart), (True, None, 0))
+                # The snapshot was taken at step 300: what came between it and restore() is no part of the experiment.
+                self.assertEqual((found.compared, found.equal_until), (3, 733))
+                self.assertIn("to the last bit", str(found))
+            done = subprocess.run([PROGRAM, "run", file, "--state", pathlib.Path(folder) / "state.csv"], check=True,
+                                  capture_output=True, text=True)
+            self.assertIn("to the last bit, in 3 checks", done.stdout)
+            simulation.save_state(pathlib.Path(folder) / "own.csv")
+            self.assertEqual((pathlib.Path(folder) / "state.csv").read_bytes(),
+                             (pathlib.Path(folder) / "own.csv").read_bytes())
+            found.simulation.step(5)
+            found.simulation.save_experiment(file)
+            self.assertEqual(tyglab.repeat(file).simulation.hash, found.simulation.hash)
+
+    def test_a_divergence_is_repeated(self):
+        simulation = tyglab.Simulation(tyglab.Preset.load("explodes"))
+        with self.assertRaises(tyglab.Diverged):
+            simulation.run(2)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "explodes.tyglab"
+            simulation.save_experiment(file)
+            found = tyglab.repeat(file)
+        self.assertEqual(found.simulation.divergence.step, simulation.divergence.step)
+        self.assertEqual(found.simulation.hash, simulation.hash)
+
+    def test_a_difference_is_found_and_measured(self):
+        simulation, _ = self.experiment()
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "changed.tyglab"
+            simulation.save_experiment(file)
+            packed = file.read_bytes()
+            kind, size, rest = packed.split(b"\n", 2)
+            text = zlib.decompress(rest)
+            self.assertEqual((kind, int(size)), (b"tyglab experiment", len(text)))
+            self.assertEqual(json.loads(text)["tyglab_experiment"], 1)
+            self.assertIn(b'[300,"mark","the hand grabs a corner"]', text)
+            file.write_bytes(text.replace(b'"cut",3,5', b'"cut",3,4'))
+            found = tyglab.repeat(file)
+            self.assertEqual((found.exact, found.equal_until, found.differs_at), (False, 256, 512))
+            self.assertGreater(found.apart, 0)
+            self.assertIn("differ at step", str(found))
+            for content, why in ((b"", "is not an experiment"), (packed[:-20], "cut short"), (text[:-9], "line"),
+                                 (text.replace(b'"grab"', b'"grob"'), "grob"),
+                                 (text.replace(b'"tyglab_experiment": 1', b'"tyglab_experiment": 9'), "newer")):
+                file.write_bytes(content)
+                for read in (tyglab.repeat, lambda name: tyglab.Preset.load(str(name))):
+                    with self.assertRaisesRegex(tyglab.PresetError, why):
+                        read(file)
+            with self.assertRaisesRegex(tyglab.PresetError, "none.tyglab"):
+                tyglab.repeat(pathlib.Path(folder) / "none.tyglab")
+            with self.assertRaises(OSError):
+                simulation.save_experiment(pathlib.Path(folder) / "none" / "mine.tyglab")
+            with self.assertRaises(ValueError):
+                tyglab.repeat(file, threads=0)
+        with self.assertRaises(ValueError):
+            simulation.mark("x" * 1001)
+
+    def test_ctrl_c_ends_a_repetition_also_after_a_restart(self):
+        simulation = tyglab.Simulation(tyglab.Preset(rows=40, columns=40))
+        simulation.step(3)
+        simulation.restart()
+        simulation.step(3)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "long.tyglab"
+            simulation.save_experiment(file)
+            text = zlib.decompress(file.read_bytes().split(b"\n", 2)[2])
+            file.write_bytes(text.replace(b'"steps": 6,', b'"steps": 1000000000,'))
+            threading.Timer(0.5, lambda: signal.raise_signal(signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                tyglab.repeat(file)
 
 
 class Studies(unittest.TestCase):

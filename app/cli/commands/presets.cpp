@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/base/experiment_file.h"
 #include "app/base/text.h"
 #include "app/cli/preset_argument.h"
 #include "core/engines/engine.h"
@@ -29,8 +30,12 @@ int list() {
 }
 
 int show(const std::string& word) {
-  write_output("-",
-               preset_to_json(is_link(word) ? linked_preset(read_link(word)) : load_preset(find_preset(word).file)));
+  const auto read = [&] {
+    if (is_link(word)) return linked_preset(read_link(word));
+    const std::filesystem::path file = find_preset(word).file;
+    return is_experiment(file) ? read_preset(file) : load_preset(file);  // the latter leaves the texture as it is named
+  };
+  write_output("-", preset_to_json(read()));
   return exit_done;
 }
 

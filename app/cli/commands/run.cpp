@@ -309,7 +309,7 @@ Json repetition_json(const Playback* playback) {
   if (playback == nullptr) return nullptr;
   const Playback::Comparison& found = playback->comparison();
   return {{"recorded_steps", playback->recording().steps()},
-          {"exact", playback->recording().repeats()},
+          {"repeats", playback->recording().repeats()},
           {"compared", found.compared},
           {"equal_until", found.equal_until},
           {"differs_at", found.differs_at ? Json(*found.differs_at) : Json()},
