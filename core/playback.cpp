@@ -53,6 +53,8 @@ void Playback::apply_next(Simulation& simulation) {
   } else if (const auto* look = std::get_if<event::Look>(&event)) {
     compare(simulation, *look);
   }
+  const std::int64_t made = simulation.past().steps();
+  if (made <= recording_.steps()) simulation.share_recording(recording_.until(events_[next_], made));
   ++next_;
 }
 

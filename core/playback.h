@@ -10,14 +10,18 @@
 
 namespace tyglab {
 
-/// The simulation that is given to it was made from the recording's start, and nobody else changes it.
+/// The simulation that is given to it was made from the recording's start, and nobody else changes it. Event by event
+/// it has the beginning of that recording in place of its own.
 class Playback {
  public:
   explicit Playback(Recording recording) : recording_(std::move(recording)), events_(recording_.events()) {}
 
   const Recording& recording() const { return recording_; }
-  /// Goes on after what a simulation has in its own recording, which is the beginning of this one.
-  void begin_at(const Simulation& simulation) { next_ = simulation.past().size(); }
+  /// Goes on after what a simulation has in its own recording, which is the beginning of this one, or nothing.
+  void begin(Simulation& simulation) {
+    if (!recording_.begins_with(simulation.past())) simulation.share_recording(recording_.beginning());
+    next_ = simulation.past().size();
+  }
   /// Whether all has been made.
   bool over(const Simulation& simulation) const {
     return next_ == events_.size() && simulation.past().steps() >= recording_.steps();

@@ -56,8 +56,23 @@ using Event = std::variant<event::Change, edit::Restart, edit::Grab, edit::MoveH
 
 class Recording {
  public:
-  static constexpr std::int64_t between_hashes = 256;  ///< steps
-  static constexpr std::int64_t between_looks = 16 * between_hashes;
+  /// Steps from one check of the positions to the next: 256, and in long recordings more, so that checks do not fill
+  /// memory.
+  static std::int64_t between_hashes(std::int64_t steps) {
+    std::int64_t between = 256;
+    for (std::int64_t many = 1 << 20; steps >= many && between < (1 << 30); many *= 2) between *= 2;
+    return between;
+  }
+  static constexpr std::int64_t hashes_a_look = 16;
+
+  struct Node;
+  /// An event of it.
+  struct Entry {
+    std::int64_t step;
+    const Event* event;
+    std::shared_ptr<Node> node;  ///< keeps it
+    std::size_t count;           ///< of all events to this one
+  };
 
   explicit Recording(const Preset& start) : start_(std::make_shared<const Preset>(start)) {}
 
@@ -79,29 +94,33 @@ class Recording {
   void give_up_repeating() { repeats_ = false; }
   bool repeats() const { return repeats_; }
 
-  struct Entry {
-    std::int64_t step;
-    const Event* event;  ///< lives as long as the recording
-  };
+  /// Its start, without events and steps, and the part with all events to that one and so many steps. They share what
+  /// they have with it: begins_with() finds that.
+  Recording beginning() const;
+  Recording until(const Entry& last, std::int64_t steps) const;
+  /// Whether another one is its beginning: it has the same events, not only equal ones, and all those until its step.
+  bool begins_with(const Recording& other) const;
   /// How many events it has.
   std::size_t size() const { return size_; }
   /// All events, the oldest first.
   std::vector<Entry> events() const;
 
  private:
-  struct Node {
-    Node(std::int64_t at, Event what, std::shared_ptr<Node> former)
-        : step(at), event(std::move(what)), before(std::move(former)) {}
-    ~Node();
-    std::int64_t step;
-    Event event;
-    std::shared_ptr<Node> before;
-  };
   std::shared_ptr<const Preset> start_;
   std::shared_ptr<Node> last_;
   std::int64_t steps_ = 0;
   std::size_t size_ = 0;
   bool repeats_ = true;
+};
+
+/// A link of the chain of events.
+struct Recording::Node {
+  Node(std::int64_t at, Event what, std::shared_ptr<Node> former)
+      : step(at), event(std::move(what)), before(std::move(former)) {}
+  ~Node();
+  std::int64_t step;
+  Event event;
+  std::shared_ptr<Node> before;
 };
 
 }  // namespace tyglab

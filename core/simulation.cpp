@@ -610,7 +610,7 @@ AdvanceResult Simulation::advance(int steps) {
 
 /// As far as the engine goes by itself: what follows from the steps is done.
 AdvanceResult Simulation::advance_part(int steps) {
-  constexpr auto between = Recording::between_hashes;
+  const std::int64_t between = Recording::between_hashes(past_.steps());
   // A device would have to hand over all positions.
   const bool hashes = keeps_hashes_ && preset_.engine != EngineKind::opencl;
   if (hashes) steps = int(std::min<std::int64_t>(steps, between - past_.steps() % between));
@@ -623,7 +623,7 @@ AdvanceResult Simulation::advance_part(int steps) {
   if (watch_ && !splits) watch_->before_step(preset_, tears_);
   engine_->next_step({time_at_dt_, steps_ - steps_at_dt_});
   AdvanceResult part = splits ? step_to_impacts() : engine_->advance(steps, tears_);
-  steps_ += part.steps;
+  steps_ += part.steps, past_.add_steps(part.steps);
   if (part.steps > 0) untouched_ = false, ++revision_;
   left_inside_ = part.left_inside;
   if (part.torn > 0) ++tear_revision_;
@@ -638,10 +638,9 @@ AdvanceResult Simulation::advance_part(int steps) {
     hold({held_.particle, {0, 0, 0}});
     watch_edit(Ledger::Source::hand);
   }
-  past_.add_steps(part.steps);
   if (part.diverged) past_.add(event::Diverge{});
   if (hashes && part.steps > 0 && past_.steps() % between == 0) past_.add(event::Hash{hash()});
-  if (hashes && part.steps > 0 && past_.steps() % Recording::between_looks == 0) past_.add(look());
+  if (hashes && part.steps > 0 && past_.steps() % (Recording::hashes_a_look * between) == 0) past_.add(look());
   return part;
 }
 
@@ -735,6 +734,7 @@ void Simulation::restore(const Snapshot& then) {
   // All that takes memory comes first.
   Recording past = then.past;
   past.add(event::Resume{settings_between(then.of, preset_), then.held != nullptr});
+  if (step_limit_ > 0) past.give_up_repeating();
   Tears tears = then.tears;
   std::vector<std::uint8_t> pinned_mask = pins_of(preset_, tears);
   std::vector<int> pinned = particles_in(pinned_mask);
@@ -794,7 +794,7 @@ void Simulation::restore(const Snapshot& then) {
 void Simulation::return_to(const Snapshot& then) {
   assert(then.held && then.alone && changes(then.of, preset_).within(motionless));
   restore(then);
-  past_ = then.past;
+  share_recording(then.past);
 }
 
 void Simulation::load(const State& state) {

@@ -160,11 +160,10 @@ class Simulation {
 
   /// What has happened since the first preset, restarts included.
   const Recording& past() const { return past_; }
-  /// The cloth stands at the start of these constants, and differs from them in its picture at most: its recording
-  /// begins with them.
-  void begin_recording(const Preset& start) {
-    assert(steps_ == 0);
-    past_ = Recording(start);
+  /// What has happened equals this beginning of a recording that is being repeated, and is that from now on.
+  void share_recording(Recording beginning) {
+    if (step_limit_ > 0) beginning.give_up_repeating();
+    past_ = std::move(beginning);
   }
   /// Adds a user's word to it.
   void mark(std::string words) { past_.add(event::Mark{std::move(words)}); }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/base/experiment_file.h"
 #include "app/cli/command_line.h"
 #include "core/io/output_file.h"
 #include "core/io/system_files.h"
@@ -98,6 +99,11 @@ CLI::Option* add_output(CLI::App& command, const std::string& option, std::strin
                                           : std::string();
           },
           ""));
+}
+
+void check_record(const std::string& file) {
+  if (!file.empty() && !is_standard_output(file) && !os::is_stream(file) && !is_experiment(file))
+    throw UsageError("--record " + file + ": an experiment is called NAME.tyglab; change the ending");
 }
 
 }  // namespace tyglab

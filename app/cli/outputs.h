@@ -11,6 +11,10 @@
 
 namespace tyglab {
 
+/// Throws UsageError unless a file of --record is called as an experiment, since only its ending tells it from a
+/// preset.
+void check_record(const std::string& file);
+
 /// One option that names a file. "-" is standard output.
 struct Output {
   std::string option;   ///< "--state"

@@ -114,6 +114,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
       preset.description = "Based on “" + former.name + "”.";
     preset.name = name;
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
+    if (is_experiment(file)) throw OutputError("NAME.tyglab is an experiment; name the preset NAME.json.");
     // The program's own folder is made where it is missing; nobody else's.
     std::error_code ignored;
     const std::filesystem::path folder = file.parent_path();

@@ -184,10 +184,11 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     const Plan plan = plan_of(session, edit);
     if (!take_texture(session, plan)) return false;
     const bool only_seen = plan.change != nullptr && plan.document.within(motionless);
-    if (!only_seen) settle(session), leave_repetition(session);  // a stand-in of the cloth takes no others
+    if (!only_seen) settle(session);  // a stand-in of the cloth takes no others
     std::optional<HistoryEntry> motion = before_motion(session, plan, gesture);
     const auto torn = session.simulation->tears().torn_count();
     if (const auto taken = build_beside(session, plan, gesture)) {
+      if (*taken && !only_seen) leave_repetition(session);
       if (*taken && motion && plan.restarts) session.history.record(*std::move(motion), gesture);
       return *taken;
     }
@@ -207,6 +208,7 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     const EffectSet effects = plan.change != nullptr ? plan.cloth : changes(before, session.preset());
     // A knife may have gone through nothing.
     const bool moved = moves && !(plan.cuts && session.simulation->tears().torn_count() == torn);
+    if (!only_seen && (moved || !plan.cuts)) leave_repetition(session);
     if (moved || !effects.within(Effect::view)) session.history = std::move(recorded);
     if (moved || !effects.within(beside_model)) session.rewind.note_change();
     if (!effects.empty()) follow_up(session, before, effects);

@@ -17,12 +17,17 @@ std::string title(const Session& session) {
   return "“" + session.document.label + "”";
 }
 
-/// Makes the event that is due, for the cloth and its copies.
+/// Makes the event that is due, for the cloth and its copies. Throws what speaks against it.
 void make_event(Session& session) {
+  constexpr double most_particles = 1e6;  // that are built within a frame
   Playback& playback = session.repetition->playback;
   const Event event = *playback.due(*session.simulation);
   const Preset before = session.preset();
   const auto edit = Playback::edit_of(*session.simulation, event);
+  const auto* change = edit ? std::get_if<edit::Change>(&*edit) : nullptr;
+  if (change != nullptr && particles(change->preset) > std::max(most_particles, particles(before)))
+    throw PresetError("it changes to a cloth of " + grouped(std::int64_t(particles(change->preset))) +
+                      " particles; `tyglab run` repeats it.");
   playback.apply_next(*session.simulation);
   if (edit) copies_apply(session, *edit);
   if (const auto* mark = std::get_if<event::Mark>(&event)) session.messages.note("Mark: " + mark->words);
@@ -41,6 +46,7 @@ void finish(Session& session) {
   session.repetition.reset();
   if (over.experiment == nullptr) return;  // its motion goes on
   session.pacing.playing = false;
+  session.document.saved = session.preset();  // which the file has
   session.messages.note("The end of the experiment " + title(session) + ": " +
                         comparison_in_words(over.playback, *over.experiment) +
                         " The motion is paused; Space continues it.");
@@ -51,6 +57,7 @@ void finish(Session& session) {
 void begin_repetition(Session& session, std::shared_ptr<const Experiment> experiment) {
   assert(experiment != nullptr);
   session.repetition = Repetition{experiment, Playback(experiment->recording)};
+  session.repetition->playback.begin(*session.simulation);
   session.messages.note("Repeats the experiment " + title(session) + ", " +
                         time_number(experiment->seconds, session.preset().dt) +
                         " s. It ends where you change or touch something.");
@@ -58,16 +65,25 @@ void begin_repetition(Session& session, std::shared_ptr<const Experiment> experi
 
 bool make_recorded_events(Session& session) {
   assert(session.repetition && !session.background_steps.busy());
-  try {
-    while (session.repetition->playback.due(*session.simulation) != nullptr) make_event(session);
-  } catch (const PresetError& error) {
-    session.messages.error("The experiment " + title(session) + " cannot be repeated further: " + error.what());
+  const auto fail = [&](const std::string& why) {
+    session.messages.error("The recording cannot be repeated further: " + why);
+    session.timeline.leave(session.repetition->playback.recording(), session.simulation->past().steps());
     session.repetition.reset();
     return false;
+  };
+  try {
+    while (session.repetition->playback.due(*session.simulation) != nullptr) make_event(session);
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory.");
+  } catch (const std::exception& error) {
+    return fail(error.what());
   }
-  if (!session.repetition->playback.over(*session.simulation)) return true;
-  finish(session);
-  return session.pacing.playing;
+  if (session.repetition->playback.over(*session.simulation)) {
+    finish(session);
+    return session.pacing.playing;
+  }
+  if (session.simulation->divergence()) return fail("the motion has diverged where the recorded one did not.");
+  return true;
 }
 
 int up_to_next_event(const Session& session, int steps) {
@@ -87,8 +103,8 @@ void leave_repetition(Session& session) {
         "From here the motion takes another course. The former one is kept: its mark on the timeline "
         "leads back to it.");
   else
-    session.messages.note("The experiment " + title(session) +
-                          " is yours from t = " + time_number(clock_time(session), session.preset().dt) + " s on.");
+    session.messages.note("You have taken over the experiment " + title(session) +
+                          " at t = " + time_number(clock_time(session), session.preset().dt) + " s.");
 }
 
 std::string repetition_in_words(const Session& session) {

@@ -117,7 +117,7 @@ void apply(Session& session, const request::Quit& what) {
 }  // namespace
 
 bool unsaved(const Session& session) {
-  if (no_work(session) || session.repetition) return false;
+  if (no_work(session) || (session.repetition && session.repetition->experiment)) return false;
   // What is still being built would be lost as well.
   return !changes(session.document.saved, session.requested_preset()).within(Effect::view);
 }

@@ -114,7 +114,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
   for (std::size_t n = 0; n < copies.lockstep.size(); ++n) copies.lockstep[n].simulation->limit_steps(step_limit);
   if (awaits_prediction(*this)) pacing.playing = false;
   sleep.begin(*simulation);
-  if (!simulation->keeps_hashes()) simulation->keep_hashes(true);
+  simulation->keep_hashes(!repetition);  // the recording has its own
   if (repetition && pacing.playing && !rebuild.busy()) make_recorded_events(*this);
   if (const bool wanted = wants.ledger || auto_dt; wanted != simulation->ledger().has_value())
     if (!wanted || rebuild.ledger_ready(*this)) simulation->enable_ledger(wanted);
@@ -196,7 +196,7 @@ void Session::made_steps(int steps, double seconds, double dt) {
   assert(recorded.sampled <= steps_made);
   pacing.made(steps, dt, seconds);
   pause_at_stop(*this);
-  if (auto_dt && !simulation->divergence()) watch_dt(*this);
+  if (auto_dt && !repetition && !simulation->divergence()) watch_dt(*this);
 }
 
 /// Before the steps whose motion it concerns.
@@ -236,11 +236,9 @@ void fall_back(Session& session, const std::string& why) {
   if (next.engine == EngineKind::cpu) throw EngineError(why);
   next.engine = EngineKind::cpu;
   auto simulation = std::make_unique<Simulation>(next, session.threads);
-  if (const Snapshot* then = session.rewind.before(*simulation, session.simulation->time(), 0))
-    simulation->restore(*then);
-  else
-    simulation->continue_recording(*session.simulation);
-  leave_repetition(session);
+  const Snapshot* then = session.rewind.before(*simulation, session.simulation->time(), 0);
+  leave_line(session, then != nullptr ? then->past.steps() : session.simulation->past().steps());
+  then != nullptr ? simulation->restore(*then) : simulation->continue_recording(*session.simulation);
   session.messages.error(why + " The CPU engine continues from t = " + time_number(simulation->time(), next.dt) +
                          " s.");
   ++session.counts.hands;

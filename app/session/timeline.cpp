@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -16,7 +17,7 @@
 namespace tyglab {
 
 void Timeline::look(Simulation& simulation) {
-  if (simulation.divergence()) return;
+  if (simulation.divergence() || simulation.preset().engine == EngineKind::opencl || simulation.held()) return;
   const std::int64_t step = simulation.past().steps();
   const double every = std::max(1.0, std::round(interval / simulation.preset().dt));  // steps
   if (!kept_.empty() && double(step - kept_.back().past.steps()) < every) return;
@@ -43,9 +44,10 @@ void Timeline::thin_out() {
   kept_.erase(kept_.begin() + std::ptrdiff_t(least));
 }
 
-const Snapshot* Timeline::before(std::int64_t step) const {
-  const auto later = std::find_if(kept_.begin(), kept_.end(), [&](const Snapshot& s) { return s.past.steps() > step; });
-  return later == kept_.begin() ? nullptr : &*std::prev(later);
+const Snapshot* Timeline::before(const Recording& line, std::int64_t step) const {
+  for (auto at = kept_.rbegin(); at != kept_.rend(); ++at)
+    if (at->past.steps() <= step && line.begins_with(at->past)) return &*at;
+  return nullptr;
 }
 
 void Timeline::forget_after(std::int64_t step) {
@@ -57,17 +59,18 @@ void Timeline::forget_after(std::int64_t step) {
 
 void Timeline::leave(const Recording& line, std::int64_t step) {
   forget_after(step);
+  marked_ = unmarked;
+  // What left the line later has nothing more of the present one either.
+  for (Branch& branch : branches_) branch.from = std::min(branch.from, step);
   if (line.steps() - step < shortest_branch) return;
   if (branches_.size() == most_branches) branches_.erase(branches_.begin());
   branches_.push_back({line, step});
 }
 
-Timeline::Branch Timeline::take(std::size_t branch) {
+void Timeline::take(std::size_t branch) {
   assert(branch < branches_.size());
-  Branch taken = std::move(branches_[branch]);
   branches_.erase(branches_.begin() + std::ptrdiff_t(branch));
-  forget_after(taken.from);
-  return taken;
+  marked_ = unmarked;
 }
 
 const Recording& present_line(const Session& session) {
@@ -82,20 +85,26 @@ void leave_line(Session& session, std::int64_t step) {
 
 namespace {
 
-/// The cloth of that step of a line, from the latest snapshot before it or from its start.
-std::unique_ptr<Simulation> cloth_at(const Session& session, const Recording& line, std::int64_t step,
+/// The cloth of that step of a line, from the latest snapshot before it or from its start; of an earlier step where it
+/// takes longer than so many seconds.
+std::unique_ptr<Simulation> cloth_at(const Session& session, const Recording& line, std::int64_t step, double seconds,
                                      Playback& playback) {
-  const Snapshot* from = session.timeline.before(step);
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+  const auto too_late = [until] { return Clock::now() > until; };
+  const Snapshot* from = session.timeline.before(line, step);
   Preset start = from != nullptr ? from->of : line.start();
   // The picture stays as it is.
   start.mode = session.preset().mode, start.texture = session.preset().texture;
-  auto cloth = std::make_unique<Simulation>(start, session.threads);
-  cloth->keep_hashes(session.simulation->keeps_hashes());
-  if (from != nullptr)
-    cloth->return_to(*from), playback.begin_at(*cloth);
-  else
-    cloth->begin_recording(line.start());
-  playback.advance(*cloth, step - cloth->past().steps());
+  std::string fallback;
+  std::unique_ptr<Simulation> cloth = make_simulation(start, session.threads, fallback);
+  if (from != nullptr && fallback.empty()) cloth->return_to(*from);
+  playback.begin(*cloth);
+  cloth->stop_when(too_late);
+  while (cloth->past().steps() < step && !cloth->divergence() && !too_late())
+    playback.advance(*cloth, std::min<std::int64_t>(step - cloth->past().steps(), 64));
+  if (cloth->past().steps() == step) playback.advance(*cloth, 0);
+  cloth->stop_when({});
   return cloth;
 }
 
@@ -106,27 +115,30 @@ void go_on_with(Session& session, std::unique_ptr<Simulation> cloth) {
   follow_up(session, before, changes(before, session.preset()));
   if (other_lattice) ++session.counts.lattices;
   ++session.counts.hands;
-  session.rewind.clear(), session.recorded.go_on_from(session.simulation->time());
+  // What was done is on the timeline; there it is undone.
+  session.history.clear(), session.rewind.clear(), session.recorded.go_on_from(session.simulation->time());
   session.pacing.restart_measure();
 }
 
-void go_along(Session& session, const Recording& line, std::int64_t step) {
-  if (session.rebuild.busy()) return session.messages.note("Wait until the cloth has been built.");
-  settle(session);
-  step = std::clamp<std::int64_t>(step, 0, line.steps());
+bool go_along(Session& session, const Recording& line, std::int64_t step, double seconds) {
+  if (session.rebuild.busy()) return session.messages.note("Wait until the cloth has been built."), false;
   try {
+    settle(session);
+    step = std::clamp<std::int64_t>(step, 0, line.steps());
     Playback playback(line);
-    auto cloth = cloth_at(session, line, step, playback);
+    auto cloth = cloth_at(session, line, step, seconds, playback);
     // A recording of a sandbox's own has no file; one that was opened keeps it.
     const auto experiment = session.repetition ? session.repetition->experiment : nullptr;
     go_on_with(session, std::move(cloth));
     session.repetition.reset();
     if (!playback.over(*session.simulation)) session.repetition = Repetition{experiment, std::move(playback)};
+    return true;
   } catch (const std::bad_alloc&) {
     session.messages.error("There is not enough memory for that moment. The present one is kept.");
   } catch (const std::exception& error) {
     session.messages.error(error.what());
   }
+  return false;
 }
 
 TimelineMark::Kind kind_of(const Event& event) {
@@ -173,29 +185,31 @@ std::string words_of(const Event& event) {
 
 }  // namespace
 
-void go_to_step(Session& session, std::int64_t step) {
+bool go_to_step(Session& session, std::int64_t step, double seconds) {
   const Recording line = present_line(session);
-  go_along(session, line, step);
+  return go_along(session, line, step, seconds);
 }
 
 void go_by(Session& session, double seconds, int steps) {
   const double dt = session.preset().dt;
   const auto by = seconds == 0 ? std::int64_t(steps) : std::int64_t(std::llround(seconds / dt));
-  const std::int64_t here = session.simulation->past().steps(), to = here + by;
-  if (to > present_line(session).steps()) return session.messages.note("Nothing is recorded beyond this step.");
+  const std::int64_t here = session.simulation->past().steps(), end = present_line(session).steps();
+  if (here >= end && by > 0) return session.messages.note("Nothing is recorded beyond this step.");
   if (here == 0 && by < 0) return session.messages.note("The recording begins here.");
   session.pacing.playing = false;
-  go_to_step(session, to);
+  const std::int64_t to = std::clamp<std::int64_t>(here + by, 0, end);
+  if (go_to_step(session, to) && session.simulation->past().steps() < to)
+    session.messages.note("That step takes too long to compute; this is the nearest one.");
 }
 
 void go_to_branch(Session& session, std::size_t branch) {
+  constexpr double longest = 2;  // s
   assert(branch < session.timeline.branches().size());
   const Recording line = present_line(session);
-  const std::int64_t at = session.timeline.branches()[branch].from;
-  const Timeline::Branch taken = session.timeline.take(branch);
-  if (line.steps() > at) session.timeline.leave(line, at);
-  session.repetition.reset();
-  go_along(session, taken.line, at);
+  const Timeline::Branch to = session.timeline.branches()[branch];
+  if (!go_along(session, to.line, to.from, longest)) return;
+  session.timeline.take(branch);
+  session.timeline.leave(line, to.from);
 }
 
 const std::vector<TimelineMark>& Timeline::marks(const Recording& line, double now) {
@@ -207,13 +221,14 @@ const std::vector<TimelineMark>& Timeline::marks(const Recording& line, double n
   marked_ = line.size(), marked_branches_ = branches_.size(), marked_at_ = now;
   marks_.clear();
   std::int64_t last = 0;
-  for (const auto& [step, event] : line.events()) {
-    if (!is_shown(*event)) continue;
-    const TimelineMark::Kind kind = kind_of(*event);
+  for (const Recording::Entry& entry : line.events()) {
+    const std::int64_t step = entry.step;
+    if (!is_shown(*entry.event)) continue;
+    const TimelineMark::Kind kind = kind_of(*entry.event);
     // A stroke or a drag is one mark.
     const bool again =
         !marks_.empty() && marks_.back().kind == kind && step - last < one_gesture && kind != TimelineMark::Kind::word;
-    if (!again) marks_.push_back({kind, step, words_of(*event)});
+    if (!again) marks_.push_back({kind, step, words_of(*entry.event)});
     last = step;
   }
   for (const Branch& branch : branches_)

@@ -41,16 +41,16 @@ class Timeline {
 
   /// Called before the steps of a frame: keeps a snapshot if one is due.
   void look(Simulation& simulation);
-  /// The latest snapshot at that step or before it; null: none.
-  const Snapshot* before(std::int64_t step) const;
+  /// The latest snapshot of that line at that step or before it; null: none.
+  const Snapshot* before(const Recording& line, std::int64_t step) const;
   /// The line is left at that step: forgets later snapshots, and keeps it as a branch.
   void leave(const Recording& line, std::int64_t step);
   const std::vector<Branch>& branches() const { return branches_; }
-  /// Takes a branch out, and forgets the snapshots beyond it.
-  Branch take(std::size_t branch);
+  /// Its line is the present one again, from the step at which it was left: it is no branch any more.
+  void take(std::size_t branch);
   void clear() {
     kept_.clear(), branches_.clear(), marks_.clear();
-    bytes_ = marked_ = marked_branches_ = 0;
+    bytes_ = marked_branches_ = 0, marked_ = unmarked;
   }
   std::size_t bytes() const { return bytes_; }
 
@@ -65,17 +65,18 @@ class Timeline {
   std::size_t bytes_ = 0;
   std::vector<Branch> branches_;
   std::vector<TimelineMark> marks_;
-  std::size_t marked_ = 0, marked_branches_ = 0;  ///< events and branches that they are of
-  double marked_at_ = 0;                          ///< s, on the session's clock
+  static constexpr std::size_t unmarked = std::size_t(-1);
+  std::size_t marked_ = unmarked, marked_branches_ = 0;  ///< events and branches that they are of
+  double marked_at_ = 0;                                 ///< s, on the session's clock
 };
 
 /// All that has been recorded of the present line, also beyond the present step.
 const Recording& present_line(const Session& session);
 /// The motion goes back to that step by other means, and takes another course from there.
 void leave_line(Session& session, std::int64_t step);
-/// Goes to a step of the line; at most to its end. Later steps are repeated from there. Throws nothing: what speaks
-/// against it becomes a message.
-void go_to_step(Session& session, std::int64_t step);
+/// Goes to a step of the line, at most to its end, or as far towards it as can be computed in that time, s. Later steps
+/// are repeated from there. What speaks against it becomes a message. Returns whether it went.
+bool go_to_step(Session& session, std::int64_t step, double seconds = 2);
 /// Returns to the line of a branch, at the step where it was left.
 void go_to_branch(Session& session, std::size_t branch);
 /// By so many seconds of simulated time, below 0 backwards; 0: by a step.

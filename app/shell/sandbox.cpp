@@ -411,7 +411,7 @@ int Sandbox::write_outputs() {
     if (report_) report_->finish(ui_);
     if (!options_.record.empty()) {
       settle(session_);
-      save_experiment(experiment_of(*session_.simulation), options_.record);
+      save_experiment(experiment_of(present_line(session_), *session_.simulation), options_.record);
     }
   } catch (const OutputError& error) {
     std::cerr << "tyglab: " << error.what() << '\n';

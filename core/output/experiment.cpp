@@ -338,21 +338,25 @@ Event as_in_file(Event event) {
 }  // namespace
 
 Experiment experiment_of(const Simulation& simulation) {
-  const Recording& past = simulation.past();
+  return experiment_of(simulation.past(), simulation);
+}
+
+Experiment experiment_of(const Recording& past, const Simulation& simulation) {
   Preset start = past.start();
   if (names_path(start.texture)) start.texture = Preset().texture;
   Recording recording(start);
   Constants constants(start);
-  for (const auto& [step, event] : past.events()) {
-    recording.add_steps(step - recording.steps());
-    Event kept = as_in_file(*event);
-    constants.follow(step, kept);
+  for (const Recording::Entry& entry : past.events()) {
+    recording.add_steps(entry.step - recording.steps());
+    Event kept = as_in_file(*entry.event);
+    constants.follow(entry.step, kept);
     recording.add(std::move(kept));
   }
   recording.add_steps(past.steps() - recording.steps());
   constants.end(past.steps());
   // What a repetition ends with can be compared.
-  if (!simulation.divergence()) recording.add(event::Hash{simulation.hash()}), recording.add(simulation.look());
+  if (!simulation.divergence() && simulation.past().steps() == past.steps())
+    recording.add(event::Hash{simulation.hash()}), recording.add(simulation.look());
   if (!past.repeats()) recording.give_up_repeating();
   const Preset& now = simulation.preset();
   return {std::move(recording), TYGLAB_VERSION, simulation.engine().name() + ", " + std::string(name_of(now.precision)),
@@ -422,7 +426,7 @@ Experiment parse_experiment(std::string_view text, std::string_view source) {
 std::string comparison_in_words(const Playback& playback, const Experiment& experiment, bool own_start) {
   const Playback::Comparison& found = playback.comparison();
   if (!playback.recording().repeats())
-    return "steps of the recording ended after a limit of real time, so the motion does not repeat exactly.";
+    return "some recorded steps were cut off by the time limit, so the motion does not repeat exactly.";
   const std::string apart = found.looked_at == 0 ? ""
                                                  : " At step " + grouped(found.looked_at) +
                                                        " the corners, the edges' middles and the middle are at most " +

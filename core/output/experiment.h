@@ -21,6 +21,8 @@ struct Experiment {
 
 /// What a simulation has done so far. Without pictures that are not the program's own: a file names no other file.
 Experiment experiment_of(const Simulation& simulation);
+/// The same of a recording whose beginning, or all of it, the simulation has made.
+Experiment experiment_of(const Recording& recording, const Simulation& simulation);
 
 inline constexpr int experiment_version = 1;
 inline constexpr std::size_t longest_mark = 1000;  // bytes

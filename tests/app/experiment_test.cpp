@@ -239,6 +239,7 @@ TEST_CASE("in the sandbox an experiment is opened, repeated and compared; a touc
   CHECK(test::identical(session.simulation->read_raw(), cloth.read_raw()));
   CHECK(session.preset().k_s == 70);
   CHECK(said("to the last bit"));
+  CHECK(!unsaved(session));
 
   session.request(request::Open{.file = file, .confirmed = true});
   session.pacing.playing = true;
@@ -248,10 +249,23 @@ TEST_CASE("in the sandbox an experiment is opened, repeated and compared; a touc
   session.propose(next);
   update();
   CHECK(!session.repetition);
-  CHECK(said("is yours from"));
+  CHECK(said("You have taken over"));
   const std::int64_t taken_over = session.simulation->past().steps();
   update();
   CHECK(session.simulation->past().steps() > taken_over);
+
+  // What a stranger's file asks for ends its repetition, not the program.
+  Simulation large(test::cloth(8, 8));
+  large.advance(30);
+  Recording recording(large.past().start());
+  recording.add_steps(10), recording.add(event::Change{{"rows=4096", "columns=4096"}}), recording.add_steps(20);
+  save_experiment(experiment_of(recording, large), file);
+  session.request(request::Open{.file = file, .confirmed = true});
+  session.pacing.playing = true;
+  for (int n = 0; n < 10; ++n) update();
+  CHECK(!session.repetition);
+  CHECK(session.preset().rows == 8);
+  CHECK(said("cannot be repeated further: it changes to a cloth of 16,777,216 particles"));
   std::filesystem::remove(file);
 }
 

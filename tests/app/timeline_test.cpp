@@ -155,6 +155,83 @@ TEST_CASE("a change on the way begins another course, and the former one can be 
   CHECK(played.cloth().hash() == at_other_end);
 }
 
+TEST_CASE("branches of branches lead to the cloth that was left there, wherever the motion has gone since") {
+  Played played(test::cloth(8, 8));
+  played.play(150);
+  const std::int64_t end = played.step();
+  const std::uint64_t at_end = played.cloth().hash();
+  const auto seen = played.seen;
+  go_to_step(played.session, 1500), played.change(20), played.play(80);
+  go_to_step(played.session, 400), played.change(40), played.play(120);
+  REQUIRE(played.session.timeline.branches().size() == 2);
+  go_to_branch(played.session, 0);
+  CHECK(played.step() == 400);
+  CHECK(played.session.preset().k_s == 50);
+  go_to_step(played.session, 1600);
+  CHECK(played.cloth().hash() == seen.at(1600));
+  go_to_step(played.session, end);
+  CHECK(played.cloth().hash() == at_end);
+}
+
+TEST_CASE("other views, saving and checks on the way change nothing of what is repeated") {
+  Played played(test::cloth(8, 8));
+  played.play(10), played.change(30), played.play(40);
+  apply_edit(played.session, edit::Cut{{{4, 4}}}), played.play(40);
+  const auto seen = played.seen;
+  go_to_step(played.session, 20);
+  for (int mode = 2; mode < 5; ++mode) {
+    Preset next = played.session.preset();
+    next.mode = mode;
+    REQUIRE(apply_edit(played.session, edit::Change{next}));
+    REQUIRE(played.session.repetition);
+    played.play(10);
+  }
+  for (const auto& [step, hash] : seen) {
+    go_to_step(played.session, step);
+    REQUIRE(played.step() == step);
+    CHECK(played.cloth().hash() == hash);
+    CHECK(played.session.preset().mode == 4);
+  }
+}
+
+TEST_CASE("what was undone at the very step of a kept moment does not come back") {
+  Played played(test::cloth(8, 8));
+  REQUIRE(apply_edit(played.session, edit::Cut{{{4, 4}}}));
+  played.play(5);
+  take_from_history(played.session, true);
+  CHECK(played.cloth().tears().untorn());
+  played.play(20);
+  for (const std::int64_t step : {33, 0, 100}) {
+    go_to_step(played.session, step);
+    CHECK(played.cloth().tears().untorn());
+  }
+}
+
+TEST_CASE("changes are unsaved wherever one is on the timeline; what changes nothing leaves no line") {
+  Played played(test::cloth(8, 8));
+  played.play(10), played.change(30), played.play(10);
+  go_to_step(played.session, played.step() - 5);
+  REQUIRE(played.session.repetition);
+  CHECK(unsaved(played.session));
+  apply_edit(played.session, edit::Cut{{{100, 100}}});
+  CHECK(played.session.repetition);
+  take_from_history(played.session, true);
+  CHECK(played.said("nothing to undo"));
+  CHECK(played.session.repetition);
+}
+
+TEST_CASE("a step that takes too long to compute is approached as far as time allows") {
+  Played played(test::cloth(8, 8));
+  played.session.timeline.clear();
+  played.play(30);
+  Session& session = played.session;
+  go_to_step(session, 400, 0);
+  CHECK(played.step() <= 400);
+  CHECK(session.repetition);
+  go_to_step(session, 400);
+  CHECK(played.step() == 400);
+}
+
 TEST_CASE("rewinding and undoing leave a branch behind") {
   Played played(test::cloth(8, 8));
   played.play(150);
@@ -203,7 +280,7 @@ TEST_CASE("memory stays within its limit, however long the motion is") {
   // Recent moments are near a snapshot, and old ones are not far from one, or from the start.
   const std::int64_t end = simulation.past().steps();
   const auto from = [&](std::int64_t step) {
-    const Snapshot* snapshot = timeline.before(step);
+    const Snapshot* snapshot = timeline.before(simulation.past(), step);
     return snapshot != nullptr ? snapshot->past.steps() : 0;
   };
   CHECK(end - from(end) <= 6);

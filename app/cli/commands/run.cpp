@@ -397,6 +397,7 @@ void check_step_limit(const Preset& preset) {
 
 int run(const RunOptions& options) {
   options.check_combination();
+  check_record(options.record);
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_texture(scene.preset);
   if (options.step_limit_ms > 0) check_step_limit(scene.preset);

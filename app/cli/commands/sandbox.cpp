@@ -49,6 +49,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (options.lab.empty() && options.lab_step > 0)
     throw UsageError("--lab-step: name the lab, as in --lab 03_stiffness");
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
+  check_record(options.record);
   const std::vector<Output> outputs = options.outputs();
   check_outputs(outputs, scene.inputs());
   SandboxOptions sandbox;
@@ -71,6 +72,11 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.color = field_called(options.color);
   sandbox.lab = options.lab, sandbox.lab_step = options.lab_step, sandbox.panels = !options.no_panels;
   if (display_there()) return run_sandbox(sandbox);
+  if (scene.experiment || !options.record.empty())
+    throw UsageError(
+        "There is no display for a window. `tyglab run` and `tyglab render` repeat experiments, and `tyglab run "
+        "--record` "
+        "writes them");
   if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so no report is written.\n";
   if (!options.lab.empty()) std::cerr << "--lab starts a lab in a window, so it has no effect here.\n";
   return run_headless(sandbox, people(outputs));

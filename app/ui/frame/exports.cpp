@@ -78,8 +78,9 @@ std::string mesh(Ui& ui) {
 }
 
 void experiment(Ui& ui, const std::filesystem::path& file) {
+  if (!is_experiment(file)) throw OutputError("An experiment is called NAME.tyglab; change the ending.");
   settle(ui.session);
-  save_experiment(experiment_of(*ui.session.simulation), file);
+  save_experiment(experiment_of(present_line(ui.session), *ui.session.simulation), file);
 }
 
 template <std::string (*text)(Ui&)>

@@ -92,9 +92,8 @@ float timeline_height(const Ui& ui, float region) {
 void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box) {
   Session& session = ui.session;
   const std::int64_t steps = present_line(session).steps();
-  if (steps == 0) return;
   const float pad = ui.theme.px(16);
-  const StepScale scale{box.lo.x + pad, box.hi.x - pad, double(steps)};
+  const StepScale scale{box.lo.x + pad, box.hi.x - pad, double(std::max<std::int64_t>(steps, 1))};
   const std::vector<TimelineMark>& marks = session.timeline.marks(present_line(session), session.now);
   cover_viewport(ui, vec(box.lo), vec(box.hi));
   ImGui::SetCursorScreenPos(vec(box.lo));
@@ -103,8 +102,12 @@ void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box) {
   const float x = ImGui::GetIO().MousePos.x;
   const TimelineMark* mark =
       ImGui::IsItemHovered() || clicked ? mark_at(marks, scale, x, ui.theme.px(ui.input.by_touch ? 14 : 6)) : nullptr;
+  // A press that stays where it is goes to a mark under it; a drag goes to any step.
+  const float slop = ui.theme.px(ui.input.by_touch ? 10 : 4);
+  const bool active = ImGui::IsItemActive(), moved = ImGui::GetIO().MouseDragMaxDistanceSqr[0] > slop * slop;
+  const bool dragged = active && moved;
+  if (dragged) mark = nullptr;
   const std::int64_t step = mark != nullptr ? mark->step : scale.step(x);
-  const bool dragged = ImGui::IsItemActive();
   if (ImGui::IsItemHovered() || dragged) {
     std::string words = "Step " + grouped(step) + " of " + grouped(steps);
     if (mark != nullptr) words += ": " + mark->words;
@@ -113,12 +116,14 @@ void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box) {
                  : ". Drag to go to another step; what follows is repeated from there until you change something.";
     tooltip(ui, gui::item_id(), words);
   }
-  if (clicked && mark != nullptr && mark->kind == TimelineMark::Kind::branch) {
+  const bool branches = mark != nullptr && mark->kind == TimelineMark::Kind::branch;
+  if (clicked && !moved && branches) {
     if (const std::size_t branch = branch_at(session, mark->step); branch < session.timeline.branches().size())
       ui.act([branch](Ui& u) { go_to_branch(u.session, branch); });
-  } else if (dragged && step != session.simulation->past().steps()) {
+  } else if ((dragged || (clicked && !moved)) && step != session.simulation->past().steps()) {
+    constexpr double while_dragging = 0.1, at_last = 2;  // s
     session.pacing.playing = false;
-    ui.act([step](Ui& u) { go_to_step(u.session, step); });
+    ui.act([step, seconds = active ? while_dragging : at_last](Ui& u) { go_to_step(u.session, step, seconds); });
   }
   draw_strip(ui, draw, scale, std::round((box.lo.y + box.hi.y) / 2), marks);
 }
