@@ -53,9 +53,22 @@ void Playback::apply_next(Simulation& simulation) {
   } else if (const auto* look = std::get_if<event::Look>(&event)) {
     compare(simulation, *look);
   }
-  const std::int64_t made = simulation.past().steps();
-  if (made <= recording_.steps()) simulation.share_recording(recording_.until(events_[next_], made));
+  share(simulation);
   ++next_;
+}
+
+/// What the simulation has made is this recording, as long as its positions are the recorded ones. Then it is another,
+/// with checks of its own.
+void Playback::share(Simulation& simulation) const {
+  const std::int64_t made = simulation.past().steps();
+  const Event& event = *events_[next_].event;
+  if (!comparison_.differs_at && made <= recording_.steps())
+    return simulation.share_recording(recording_.until(events_[next_], made));
+  Recording own = simulation.past();
+  if (std::holds_alternative<event::Hash>(event)) own.add(event::Hash{simulation.hash()});
+  if (std::holds_alternative<event::Look>(event)) own.add(simulation.look());
+  if (std::holds_alternative<event::Mark>(event)) own.add(event);
+  simulation.share_recording(std::move(own));
 }
 
 void Playback::compare(const Simulation& simulation, const event::Hash& hash) {
@@ -77,14 +90,14 @@ void Playback::compare(const Simulation& simulation, const event::Look& look) {
 }
 
 std::int64_t Playback::advance(Simulation& simulation, std::int64_t steps) {
-  std::int64_t made = 0;
+  const std::int64_t first = simulation.past().steps();
+  const auto made = [&] { return simulation.past().steps() - first; };
   while (true) {
     while (due(simulation) != nullptr) apply_next(simulation);
-    const std::int64_t left = over(simulation) ? steps - made : std::min(steps - made, steps_to_next(simulation));
-    if (left <= 0 || simulation.divergence()) return made;
-    const AdvanceResult part = simulation.advance(int(std::min<std::int64_t>(left, 1 << 30)));
-    made += part.steps;
-    if (part.stopped) return made;
+    const std::int64_t here = steps - made(),
+                       left = over(simulation) ? here : std::min(here, steps_to_next(simulation));
+    if (left <= 0 || simulation.divergence()) return made();
+    if (simulation.advance(int(std::min<std::int64_t>(left, 1 << 30))).stopped) return made();
   }
 }
 

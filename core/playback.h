@@ -10,8 +10,8 @@
 
 namespace tyglab {
 
-/// The simulation that is given to it was made from the recording's start, and nobody else changes it. Event by event
-/// it has the beginning of that recording in place of its own.
+/// The simulation that is given to it was made from the recording's start, and nobody else changes it. As long as
+/// its positions are the recorded ones, it has the beginning of that recording in place of its own.
 class Playback {
  public:
   explicit Playback(Recording recording) : recording_(std::move(recording)), events_(recording_.events()) {}
@@ -53,6 +53,7 @@ class Playback {
   const Comparison& comparison() const { return comparison_; }
 
  private:
+  void share(Simulation& simulation) const;
   void compare(const Simulation& simulation, const event::Hash& hash);
   void compare(const Simulation& simulation, const event::Look& look);
 

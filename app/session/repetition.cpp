@@ -28,6 +28,10 @@ void make_event(Session& session) {
   if (change != nullptr && particles(change->preset) > std::max(most_particles, particles(before)))
     throw PresetError("it changes to a cloth of " + grouped(std::int64_t(particles(change->preset))) +
                       " particles; `tyglab run` repeats it.");
+  // A device's programs are tried in a process of their own first, which a file opened here has not been.
+  const bool to_device = change != nullptr && change->preset.engine == EngineKind::opencl;
+  if (to_device && before.engine != EngineKind::opencl && session.repetition->experiment != nullptr)
+    throw PresetError("it changes to an OpenCL device; `tyglab run` repeats it.");
   playback.apply_next(*session.simulation);
   if (edit) copies_apply(session, *edit);
   if (const auto* mark = std::get_if<event::Mark>(&event)) session.messages.note("Mark: " + mark->words);
