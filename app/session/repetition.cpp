@@ -19,19 +19,10 @@ std::string title(const Session& session) {
 
 /// Makes the event that is due, for the cloth and its copies. Throws what speaks against it.
 void make_event(Session& session) {
-  constexpr double most_particles = 1e6;  // that are built within a frame
   Playback& playback = session.repetition->playback;
   const Event event = *playback.due(*session.simulation);
   const Preset before = session.preset();
   const auto edit = Playback::edit_of(*session.simulation, event);
-  const auto* change = edit ? std::get_if<edit::Change>(&*edit) : nullptr;
-  if (change != nullptr && particles(change->preset) > std::max(most_particles, particles(before)))
-    throw PresetError("it changes to a cloth of " + grouped(std::int64_t(particles(change->preset))) +
-                      " particles; `tyglab run` repeats it.");
-  // A device's programs are tried in a process of their own first, which a file opened here has not been.
-  const bool to_device = change != nullptr && change->preset.engine == EngineKind::opencl;
-  if (to_device && before.engine != EngineKind::opencl && session.repetition->experiment != nullptr)
-    throw PresetError("it changes to an OpenCL device; `tyglab run` repeats it.");
   playback.apply_next(*session.simulation);
   if (edit) copies_apply(session, *edit);
   if (const auto* mark = std::get_if<event::Mark>(&event)) session.messages.note("Mark: " + mark->words);
@@ -42,6 +33,24 @@ void make_event(Session& session) {
     follow_up(session, before, effects);
     if (!effects.within(beside_model)) session.rewind.note_change();
   }
+}
+
+/// Why a file from anybody is not repeated in the window, where each of its steps can be gone to at once; empty: it is.
+std::string refusal(const Experiment& experiment) {
+  constexpr double most_particles = 1e6;  // that are built within a frame
+  const Preset& start = experiment.recording.start();
+  if (particles(experiment.largest) > std::max(most_particles, particles(start)))
+    return "it changes to a cloth of " + grouped(std::int64_t(particles(experiment.largest))) + " particles";
+  // A device's programs are first tried in a process of their own, for the constants with which a cloth is opened.
+  Preset now = start;
+  for (const Recording::Entry& entry : experiment.recording.events()) {
+    const auto* change = std::get_if<event::Change>(entry.event);
+    const auto* resume = std::get_if<event::Resume>(entry.event);
+    if (change != nullptr || resume != nullptr)
+      now = with_settings(now, change != nullptr ? change->settings : resume->settings);
+    if (now.engine == EngineKind::opencl && start.engine != EngineKind::opencl) return "it changes to an OpenCL device";
+  }
+  return "";
 }
 
 /// Of a recording that has come to its end.
@@ -60,6 +69,9 @@ void finish(Session& session) {
 
 void begin_repetition(Session& session, std::shared_ptr<const Experiment> experiment) {
   assert(experiment != nullptr);
+  if (const std::string why = refusal(*experiment); !why.empty())
+    return session.messages.error("The experiment " + title(session) + " is not repeated here, since " + why +
+                                  ". `tyglab run` repeats it.");
   session.repetition = Repetition{experiment, Playback(experiment->recording)};
   session.repetition->playback.begin(*session.simulation);
   session.messages.note("Repeats the experiment " + title(session) + ", " +

@@ -265,7 +265,14 @@ TEST_CASE("in the sandbox an experiment is opened, repeated and compared; a touc
   for (int n = 0; n < 10; ++n) update();
   CHECK(!session.repetition);
   CHECK(session.preset().rows == 8);
-  CHECK(said("cannot be repeated further: it changes to a cloth of 16,777,216 particles"));
+  CHECK(said("is not repeated here, since it changes to a cloth of 16,777,216 particles"));
+  Recording on_device(large.past().start());
+  on_device.add_steps(10), on_device.add(event::Change{{"solver.engine=opencl"}}), on_device.add_steps(20);
+  save_experiment(experiment_of(on_device, large), file);
+  session.request(request::Open{.file = file, .confirmed = true});
+  update();
+  CHECK(!session.repetition);
+  CHECK(said("since it changes to an OpenCL device"));
   std::filesystem::remove(file);
 }
 
