@@ -186,8 +186,12 @@ std::string words_of(const Event& event) {
 }  // namespace
 
 bool go_to_step(Session& session, std::int64_t step, double seconds) {
+  constexpr double in_passing = 1;  // s; while the timeline is dragged, the next place follows at once
   const Recording line = present_line(session);
-  return go_along(session, line, step, seconds);
+  const bool went = go_along(session, line, step, seconds);
+  if (went && seconds >= in_passing && session.simulation->past().steps() < std::min(step, line.steps()))
+    session.messages.note("That step takes too long to compute; this is the nearest one.");
+  return went;
 }
 
 void go_by(Session& session, double seconds, int steps) {
@@ -197,9 +201,7 @@ void go_by(Session& session, double seconds, int steps) {
   if (here >= end && by > 0) return session.messages.note("Nothing is recorded beyond this step.");
   if (here == 0 && by < 0) return session.messages.note("The recording begins here.");
   session.pacing.playing = false;
-  const std::int64_t to = std::clamp<std::int64_t>(here + by, 0, end);
-  if (go_to_step(session, to) && session.simulation->past().steps() < to)
-    session.messages.note("That step takes too long to compute; this is the nearest one.");
+  go_to_step(session, std::clamp<std::int64_t>(here + by, 0, end));
 }
 
 void go_to_branch(Session& session, std::size_t branch) {

@@ -106,7 +106,7 @@ void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box) {
   const float slop = ui.theme.px(ui.input.by_touch ? 10 : 4);
   const bool active = ImGui::IsItemActive(), moved = ImGui::GetIO().MouseDragMaxDistanceSqr[0] > slop * slop;
   const bool dragged = active && moved;
-  if (dragged) mark = nullptr;
+  if (moved) mark = nullptr;
   const std::int64_t step = mark != nullptr ? mark->step : scale.step(x);
   if (ImGui::IsItemHovered() || dragged) {
     std::string words = "Step " + grouped(step) + " of " + grouped(steps);
@@ -120,10 +120,11 @@ void timeline_strip(Ui& ui, ImDrawList& draw, const Box& box) {
   if (clicked && !moved && branches) {
     if (const std::size_t branch = branch_at(session, mark->step); branch < session.timeline.branches().size())
       ui.act([branch](Ui& u) { go_to_branch(u.session, branch); });
-  } else if ((dragged || (clicked && !moved)) && step != session.simulation->past().steps()) {
+  } else if (const bool let_go = ImGui::IsItemDeactivated();
+             (let_go || (dragged && ImGui::GetIO().MouseDelta.x != 0)) && step != session.simulation->past().steps()) {
     constexpr double while_dragging = 0.1, at_last = 2;  // s
     session.pacing.playing = false;
-    ui.act([step, seconds = active ? while_dragging : at_last](Ui& u) { go_to_step(u.session, step, seconds); });
+    ui.act([step, seconds = let_go ? at_last : while_dragging](Ui& u) { go_to_step(u.session, step, seconds); });
   }
   draw_strip(ui, draw, scale, std::round((box.lo.y + box.hi.y) / 2), marks);
 }
