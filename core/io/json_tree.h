@@ -33,6 +33,9 @@ struct JsonNode::Member {
 /// "a number", "a string", … for error messages.
 std::string_view type_name(JsonNode::Type type);
 
+/// The text as JSON writes it, in quotation marks.
+std::string json_text(std::string_view text);
+
 /// The text with control characters replaced by spaces, so a key in a file can neither cut an error message short nor
 /// reach a terminal as a control sequence.
 std::string printable(std::string text);

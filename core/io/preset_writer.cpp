@@ -6,20 +6,21 @@
 #include <nlohmann/json.hpp>
 
 #include "core/cloth/state.h"
+#include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
 #include "core/model/effect.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {
+std::string json_text(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 namespace {
 
 std::string list_text(const glm::dvec3& v) {
   return "[" + shortest_number(v.x) + ", " + shortest_number(v.y) + ", " + shortest_number(v.z) + "]";
-}
-
-std::string json_text(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 template <class T>

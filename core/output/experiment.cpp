@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/io/json_tree.h"
@@ -59,10 +58,6 @@ std::string in_hexadecimal(std::uint64_t value) {
   return text.data();
 }
 
-std::string in_quotes(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
@@ -89,7 +84,7 @@ class EventText {
     text_ += json;
     return *this;
   }
-  EventText& word(std::string_view word) { return add(in_quotes(word)); }
+  EventText& word(std::string_view word) { return add(json_text(word)); }
   EventText& words(const std::vector<std::string>& all) {
     for (const std::string& one : all) word(one);
     return *this;
@@ -366,8 +361,8 @@ Experiment experiment_of(const Recording& past, const Simulation& simulation) {
 std::string experiment_text(const Experiment& experiment) {
   const Recording& recording = experiment.recording;
   std::string text = "{\"tyglab_experiment\": " + std::to_string(experiment_version) +
-                     ",\n\"version\": " + in_quotes(experiment.version) +
-                     ",\n\"made_with\": " + in_quotes(experiment.made_with) +
+                     ",\n\"version\": " + json_text(experiment.version) +
+                     ",\n\"made_with\": " + json_text(experiment.made_with) +
                      ",\n\"repeats\": " + (recording.repeats() ? "true" : "false") +
                      ",\n\"steps\": " + std::to_string(recording.steps()) +
                      ",\n\"preset\": " + preset_to_json(recording.start()) + ",\n\"events\": [";
